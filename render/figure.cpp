@@ -1,0 +1,181 @@
+#include "render/figure.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <optional>
+
+#include "base/errors.hpp"
+#include "render/csv_table.hpp"
+#include "render/process.hpp"
+
+namespace ejecta {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Text within double quotes of gnuplot, its markup switched off where used.
+std::string quoted(const std::string& text) {
+  std::string safe;
+  for (const char c : text) safe += c == '"' || c == '\\' ? std::string{'\\', c} : std::string(1, c);
+  return '"' + safe + '"';
+}
+
+std::string preamble(const std::string& name, const std::string& title, const std::string& subject) {
+  return fmt::format(R"(set encoding utf8
+set terminal pngcairo size 1120,760 font 'DejaVu Sans,13' enhanced background rgb 'white'
+set output 'figures/{}.png'
+set datafile separator ','
+set datafile columnheaders
+set title {} noenhanced font ',15' offset 0,0.3
+set border 3 lc rgb '#444444'
+set tics nomirror out scale 0.6
+set grid lc rgb '#e4e4e8' lt 1
+set key reverse Left spacing 1.3 samplen 2 noenhanced
+set style line 1 lc rgb '#2c728e' lw 2.2 pt 7 ps 0.35
+set style line 2 lc rgb '#e45a31' lw 2.2 pt 7 ps 0.35
+set style line 3 lc rgb '#5ec962' lw 2.2 pt 7 ps 0.35
+set style line 4 lc rgb '#8a226a' lw 2.2 pt 7 ps 0.35
+factor(m) = m >= 1 ? 1.0 : m >= 1e-3 ? 1e-3 : m >= 1e-6 ? 1e-6 : 1e-9
+prefix(m) = m >= 1 ? '' : m >= 1e-3 ? 'm' : m >= 1e-6 ? 'µ' : 'n'
+)",
+                     name, quoted(title.empty() ? subject : title + ": " + subject));
+}
+
+/// Time in column 1, shown with a prefix that suits the last row.
+constexpr const char* time_axis = R"(stats '{0}' using 1 nooutput
+t = factor(STATS_max)
+set xlabel sprintf('time [%ss]', prefix(STATS_max))
+set xrange [0:(STATS_max > 0 ? STATS_max / t : 1)]
+)";
+
+/// Particles over the crush curve, as in section 7.1 of the note on the P-alpha model. Pressures below the left edge of
+/// the logarithmic axis (released or in tension) are drawn on it.
+std::optional<std::string> compaction(const fs::path& run, const FigureSettings& settings) {
+  if (!fs::exists(run / "figures/compaction.csv") || !fs::exists(run / "figures/crush_curve.csv")) return {};
+  return preamble("compaction", settings.title, "pore compaction") +
+         R"(stats 'figures/crush_curve.csv' using ($1 > 0 ? $1 : NaN) nooutput
+left = STATS_min / 1e6 / 10
+set logscale x
+set xrange [left:*]
+stats 'figures/crush_curve.csv' using 2 nooutput
+set yrange [1 - 0.05 * (STATS_max - 1):1 + 1.08 * (STATS_max - 1)]
+set format x '10^{%L}'
+set xlabel sprintf('pressure [MPa]   (below %g MPa: on the left edge)', left)
+set ylabel 'distension α'
+mpa(p) = p / 1e6 > left ? p / 1e6 : left
+set key top right
+plot 'figures/compaction.csv' using ($3 == 0 ? mpa($1) : NaN):2 with points ls 1 ps 0.3 notitle, \
+     '' using ($3 != 0 ? mpa($1) : NaN):2 with points ls 4 ps 0.3 notitle, \
+     'figures/crush_curve.csv' using ($1 / 1e6):2 with lines lc rgb 'red' lw 2 dt 2 title 'crush curve', \
+     keyentry with points ls 4 ps 1 title 'particles, loading', \
+     keyentry with points ls 1 ps 1 title 'particles, released or untouched'
+)";
+}
+
+std::optional<std::string> fragment_distribution(const fs::path& run, const FigureSettings& settings) {
+  if (!fs::exists(run / "fragment_distribution.csv") || read_csv(run / "fragment_distribution.csv").rows.empty())
+    return {};
+  std::string script = preamble("fragment_distribution", settings.title, "cumulative fragment mass distribution");
+  script += R"(set logscale xy
+set format x '10^{%L}'
+set format y '10^{%L}'
+set xlabel 'fragment mass m / target mass'
+set ylabel 'number of fragments ≥ m'
+stats 'fragment_distribution.csv' using 2 nooutput
+low = 10**floor(log10(STATS_min) - 0.3)
+high = 10**ceil(log10(STATS_max))
+)";
+  if (std::isfinite(settings.resolution_limit))
+    script += fmt::format(R"(stats 'fragment_distribution.csv' using ($2 / $1) nooutput
+limit = {:.9g} * STATS_mean
+low = limit < low ? 10**floor(log10(limit) - 0.3) : low
+set arrow from limit, graph 0 to limit, graph 1 nohead dt 3 lw 1.5 lc rgb '#777777'
+set label 'resolution limit' at limit, graph 0.03 rotate by 90 offset 0.9,0 textcolor rgb '#777777' font ',11'
+)",
+                          settings.resolution_limit);
+  return script + R"(set xrange [low:high]
+set yrange [0.8:10<*]
+set key off
+plot 'fragment_distribution.csv' using 2:3 with steps ls 1, '' using 2:3 with points ls 1 ps 0.9
+)";
+}
+
+std::optional<std::string> largest_fragment(const fs::path& run, const FigureSettings& settings) {
+  if (!fs::exists(run / "largest_fragment.csv") || read_csv(run / "largest_fragment.csv").rows.empty()) return {};
+  return preamble("largest_fragment", settings.title, "largest fragment") +
+         fmt::format(fmt::runtime(time_axis), "largest_fragment.csv") + R"(set ylabel 'mass / target mass [%]'
+set yrange [0:*]
+set y2label 'number of fragments'
+set y2range [0:*]
+set y2tics nomirror
+set border 11
+set key bmargin center horizontal
+plot 'largest_fragment.csv' using ($1 / t):($2 * 100) with lines ls 1 title 'largest fragment', \
+     '' using ($1 / t):($4 * 100) with lines ls 2 title 'dust', \
+     '' using ($1 / t):3 axes x1y2 with lines ls 4 dt 2 title 'fragments (right)'
+)";
+}
+
+std::optional<std::string> energy(const fs::path& run, const FigureSettings& settings) {
+  if (!fs::exists(run / "history.csv")) return {};
+  const CsvTable table = read_csv(run / "history.csv");
+  const std::size_t kinetic = table.find("kinetic energy"), internal = table.find("internal energy"),
+                    total = table.find("total energy"), error = table.find("energy error");
+  for (const std::size_t column : {kinetic, internal, total, error})
+    if (column == CsvTable::npos || table.rows.empty()) return {};
+  return preamble("energy", settings.title, "energy") + fmt::format(fmt::runtime(time_axis), "history.csv") +
+         fmt::format(R"(set multiplot layout 2,1
+set lmargin 11
+set rmargin 4
+unset xlabel
+set size 1,0.66
+set origin 0,0.34
+set ylabel 'energy [{4}]'
+set key bmargin center horizontal
+plot 'history.csv' using ($1 / t):{0} with lines ls 2 title 'kinetic', '' using ($1 / t):{1} with lines ls 1 title 'internal', \
+     '' using ($1 / t):{2} with lines lc rgb '#222222' lw 1.5 dt 2 title 'total'
+unset title
+set key off
+set size 1,0.34
+set origin 0,0
+set xlabel sprintf('time [%ss]', prefix(t))
+set ylabel 'relative error'
+set format y '%.0e'
+plot 'history.csv' using ($1 / t):{3} with lines ls 4
+unset multiplot
+)",
+                     kinetic + 1, internal + 1, total + 1, error + 1, table.unit(total));
+}
+
+}  // namespace
+
+std::vector<Figure> make_figures(const fs::path& run_folder, const FigureSettings& settings) {
+  using Draw = std::optional<std::string> (*)(const fs::path&, const FigureSettings&);
+  struct Plot {
+    const char* name;
+    Draw script;
+  };
+  std::vector<Figure> figures;
+  for (const Plot& plot : {Plot{"compaction", compaction}, Plot{"fragment_distribution", fragment_distribution},
+                           Plot{"largest_fragment", largest_fragment}, Plot{"energy", energy}}) {
+    Figure figure{run_folder / "figures" / (std::string(plot.name) + ".png"), ""};
+    try {
+      const std::optional<std::string> script = plot.script(run_folder, settings);
+      if (!script) continue;
+      std::error_code failed;
+      fs::create_directories(run_folder / "figures", failed);
+      const std::string script_name = std::string("figures/") + plot.name + ".gp";
+      std::ofstream(run_folder / script_name) << *script;
+      figure.problem = run_program({"gnuplot", script_name}, run_folder);
+    } catch (const InputError& error) {
+      figure.problem = error.what();
+    }
+    figures.push_back(std::move(figure));
+  }
+  return figures;
+}
+
+}  // namespace ejecta

@@ -1,0 +1,27 @@
+#pragma once
+/// Plots at the end of a run, by gnuplot from the CSV files the run has left. Script and picture end up side by side in
+/// figures/; `gnuplot figures/<name>.gp` in the run folder draws a picture again.
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace ejecta {
+
+struct FigureSettings {
+  std::string title;                                                   ///< over every plot
+  double resolution_limit = std::numeric_limits<double>::quiet_NaN();  ///< smallest mass counted as a fragment [kg]
+};
+
+/// Outcome of one plot: `problem` is empty if it was drawn, else one sentence.
+struct Figure {
+  std::filesystem::path file;
+  std::string problem;
+};
+
+/// Draws what there is data for: figures/compaction.png (from figures/compaction.csv and figures/crush_curve.csv),
+/// fragment_distribution.png, largest_fragment.png and energy.png (from fragment_distribution.csv,
+/// largest_fragment.csv and history.csv). Plots without data are left out; without gnuplot each says so.
+std::vector<Figure> make_figures(const std::filesystem::path& run_folder, const FigureSettings& settings);
+
+}  // namespace ejecta

@@ -1,0 +1,196 @@
+#include "render/sampling.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "base/parallel.hpp"
+
+namespace ejecta {
+
+namespace {
+
+/// A function of s = q^2 on [0, support^2], tabulated so finely that linear interpolation is good to about 1e-6.
+class SquareTable {
+ public:
+  template <class F>
+  SquareTable(double support, F&& of_square) : scale_(intervals / (support * support)), values_(intervals + 2, 0.0) {
+    for (int k = 0; k < intervals; ++k) values_[static_cast<std::size_t>(k)] = of_square(k / scale_);
+  }
+  double operator()(double s) const {
+    const double place = s * scale_;
+    const std::size_t k = static_cast<std::size_t>(place);
+    return values_[k] + (place - static_cast<double>(k)) * (values_[k + 1] - values_[k]);
+  }
+
+ private:
+  static constexpr int intervals = 8192;
+  double scale_;
+  std::vector<double> values_;
+};
+
+SquareTable slice_table(const KernelShape& kernel) {
+  return {kernel.support, [&](double s) { return kernel.value(std::sqrt(s)); }};
+}
+
+/// Line integral of the kernel at impact parameter sqrt(s), by Simpson's rule.
+SquareTable column_table(const KernelShape& kernel) {
+  return {kernel.support, [&](double s) {
+            constexpr int n = 128;
+            const double reach = std::sqrt(std::max(0.0, kernel.support * kernel.support - s)), step = reach / n;
+            double sum = kernel.value(std::sqrt(s));
+            for (int k = 1; k < n; ++k) sum += (k % 2 ? 4 : 2) * kernel.value(std::sqrt(s + k * step * k * step));
+            return 2 * step / 3 * sum;
+          }};
+}
+
+/// Footprint of one particle: weight amplitude * table((distance^2 + depth2) / h^2) at pixels within `radius`.
+struct Splat {
+  std::size_t particle;
+  double u, v, depth2, inverse_h2, amplitude, radius;
+};
+
+/// First and one past the last pixel whose centre lies within `radius` of x; empty if none.
+std::array<int, 2> covered(double x, double radius, double first, double pixel, int pixels) {
+  const double low = std::ceil((x - radius - first) / pixel), high = std::floor((x + radius - first) / pixel);
+  if (!(low <= high)) return {0, 0};  // also where a failing run hands over a NaN position
+  const double n = pixels;
+  return {static_cast<int>(std::clamp(low, 0.0, n)), static_cast<int>(std::clamp(high + 1, 0.0, n))};
+}
+
+/// Calls paint(splat, pixel index, weight) for every covered pixel. A thread owns bands of rows and meets the splats of
+/// a band in the order given, so sums do not depend on the threads.
+template <class Paint>
+void for_each_pixel(const std::vector<Splat>& splats, const PixelGrid& grid, const SquareTable& table, double support,
+                    Paint&& paint) {
+  constexpr int band = 8;
+  const std::size_t bands = static_cast<std::size_t>((grid.height + band - 1) / band);
+  const auto rows_of = [&](const Splat& s) { return covered(s.v, s.radius, grid.first[1], grid.pixel, grid.height); };
+  std::vector<std::size_t> start(bands + 1, 0);
+  const auto each_band = [&](std::size_t k, auto&& visit) {
+    const auto [low, high] = rows_of(splats[k]);
+    for (int b = low / band; low < high && b <= (high - 1) / band; ++b) visit(static_cast<std::size_t>(b));
+  };
+  for (std::size_t k = 0; k < splats.size(); ++k) each_band(k, [&](std::size_t b) { ++start[b + 1]; });
+  std::partial_sum(start.begin(), start.end(), start.begin());
+  std::vector<std::size_t> in_band(start.back()), next(start.begin(), start.end() - 1);
+  for (std::size_t k = 0; k < splats.size(); ++k) each_band(k, [&](std::size_t b) { in_band[next[b]++] = k; });
+
+  parallel_blocks(bands, 1, [&](std::size_t b, std::size_t) {
+    for (std::size_t entry = start[b]; entry < start[b + 1]; ++entry) {
+      const Splat& s = splats[in_band[entry]];
+      const auto [low, high] = rows_of(s);
+      const auto [left, right] = covered(s.u, s.radius, grid.first[0], grid.pixel, grid.width);
+      const int top = std::min(high, static_cast<int>(b + 1) * band);
+      for (int j = std::max(low, static_cast<int>(b) * band); j < top; ++j) {
+        const double dv = grid.first[1] + j * grid.pixel - s.v;
+        for (int i = left; i < right; ++i) {
+          const double du = grid.first[0] + i * grid.pixel - s.u;
+          const double q2 = (du * du + dv * dv + s.depth2) * s.inverse_h2;
+          if (q2 < support * support)
+            paint(s, static_cast<std::size_t>(j) * static_cast<std::size_t>(grid.width) + static_cast<std::size_t>(i),
+                  s.amplitude * table(q2));
+        }
+      }
+    }
+  });
+}
+
+std::size_t pixels(const PixelGrid& grid) {
+  return static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height);
+}
+
+}  // namespace
+
+PixelGrid centred_grid(int width, int height, std::array<double, 2> centre, double visible_width) {
+  const double pixel = visible_width / width;
+  return {width, height, {centre[0] - 0.5 * (width - 1) * pixel, centre[1] - 0.5 * (height - 1) * pixel}, pixel};
+}
+
+const SampledImage::Field& SampledImage::field(std::string_view name) const {
+  const auto found = std::find_if(fields.begin(), fields.end(), [&](const Field& f) { return f.name == name; });
+  assert(found != fields.end());
+  return *found;
+}
+
+SampledImage sample_slice(const ParticleView& particles, std::span<const FieldView> fields, const KernelShape& kernel,
+                          const PixelGrid& grid, double plane_y, double least_filling) {
+  const bool flat = particles.dimension() == 2;
+  const auto& [x, y, z] = particles.position;
+  std::vector<Splat> splats;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    const double h = particles.smoothing_length[i], depth = flat ? 0 : y[i] - plane_y;
+    const double radius2 = kernel.support * h * (kernel.support * h) - depth * depth;
+    if (!(radius2 > 0)) continue;
+    const double volume = particles.mass[i] / particles.density[i];
+    splats.push_back({i, x[i], flat ? y[i] : z[i], depth * depth, 1 / (h * h), volume / (flat ? h * h : h * h * h),
+                      std::sqrt(radius2)});
+  }
+
+  SampledImage image{grid, {}};
+  std::vector<std::span<const double>> sources;
+  for (const FieldView& f : fields) {
+    image.fields.push_back({f.name, f.unit, {}});
+    for (const std::span<const double> component : f.components) {
+      sources.push_back(component);
+      image.fields.back().components.emplace_back(pixels(grid), 0.0);
+    }
+  }
+  image.fields.push_back({"filling", "1", {std::vector<double>(pixels(grid), 0.0)}});
+  std::vector<double*> targets;
+  for (SampledImage::Field& f : image.fields)
+    for (std::vector<double>& component : f.components) targets.push_back(component.data());
+
+  for_each_pixel(splats, grid, slice_table(kernel), kernel.support, [&](const Splat& s, std::size_t p, double weight) {
+    for (std::size_t k = 0; k < sources.size(); ++k) targets[k][p] += weight * sources[k][s.particle];
+    targets[sources.size()][p] += weight;
+  });
+  parallel_for(0, pixels(grid), [&](std::size_t p) {
+    const double filling = targets[sources.size()][p];
+    for (std::size_t k = 0; k < sources.size(); ++k)
+      targets[k][p] = filling < least_filling ? std::numeric_limits<double>::quiet_NaN() : targets[k][p] / filling;
+  });
+  return image;
+}
+
+SampledImage sample_column_density(const ParticleView& particles, const KernelShape& kernel, const PixelGrid& grid) {
+  const bool flat = particles.dimension() == 2;
+  std::vector<Splat> splats(particles.size());
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    const double h = std::max(particles.smoothing_length[i], grid.pixel);
+    splats[i] = {i,
+                 particles.position[0][i],
+                 particles.position[flat ? 1 : 2][i],
+                 0,
+                 1 / (h * h),
+                 particles.mass[i] / (h * h),
+                 kernel.support * h};
+  }
+  SampledImage image{grid, {{"column_density", flat ? "kg/m^3" : "kg/m^2", {std::vector<double>(pixels(grid), 0.0)}}}};
+  std::vector<double>& sum = image.fields[0].components[0];
+  for_each_pixel(splats, grid, flat ? slice_table(kernel) : column_table(kernel), kernel.support,
+                 [&](const Splat&, std::size_t p, double weight) { sum[p] += weight; });
+  for (double& value : sum)
+    if (value == 0) value = std::numeric_limits<double>::quiet_NaN();
+  return image;
+}
+
+Channel image_channel(const SampledImage& image, std::string name) {
+  Channel channel;
+  channel.name = std::move(name);
+  channel.kind = ChannelKind::image;
+  channel.count = pixels(image.grid);
+  channel.extent = {image.grid.width, image.grid.height, 1};
+  channel.origin = {image.grid.first[0], image.grid.first[1], 0};
+  channel.spacing = {image.grid.pixel, image.grid.pixel, image.grid.pixel};
+  for (const SampledImage::Field& f : image.fields) {
+    FieldView view{f.name, f.unit, {}};
+    for (const std::vector<double>& component : f.components) view.components.emplace_back(component);
+    channel.fields.push_back(std::move(view));
+  }
+  return channel;
+}
+
+}  // namespace ejecta

@@ -1,0 +1,349 @@
+#include "app/frames.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "app/log.hpp"
+#include "base/errors.hpp"
+#include "insitu/pipelines.hpp"
+#include "output/fragment_files.hpp"
+#include "render/image.hpp"
+#include "schemes/kernels.hpp"
+
+namespace ejecta {
+
+namespace {
+
+constexpr std::size_t samples_per_frame = 400;  ///< particles a frame adds to the compaction plot
+
+/// Largest extent of a body [m].
+double extent(const Body& body, int dim) {
+  if (is_set(body.size[0])) return *std::max_element(body.size.begin(), body.size.begin() + dim);
+  return std::max(2 * body.radius, is_set(body.length) ? body.length : 0.0);
+}
+
+double speed(const Body& body) { return std::hypot(body.velocity[0], body.velocity[1], body.velocity[2]); }
+
+/// Fields of the slices: what an impact is about, else what a gas is about.
+template <int Dim>
+std::vector<Field> slice_fields(const Particles<Dim>& p) {
+  std::vector<Field> fields;
+  if (p.has(Field::damage)) {
+    fields = {Field::pressure};
+    if (p.has(Field::distension)) fields.push_back(Field::distension);
+    fields.push_back(Field::damage);
+  } else {
+    fields = {Field::density, Field::pressure, Field::velocity};
+  }
+  return fields;
+}
+
+template <int Dim>
+FieldView view_of(const Particles<Dim>& p, Field field) {
+  const FieldInfo& f = info(field);
+  FieldView view{std::string(f.name), std::string(f.unit), {}};
+  for (int k = 0; k < components(f.shape, Dim); ++k) view.components.push_back(p.column(field, k));
+  return view;
+}
+
+ColourMap map_of(std::string_view field) {
+  if (field == "pressure") return ColourMap::cool_warm;
+  if (field == "damage") return ColourMap::inferno;
+  return ColourMap::viridis;
+}
+
+}  // namespace
+
+View choose_view(const Scene& scene) {
+  const Body& calmest = *std::min_element(scene.bodies.begin(), scene.bodies.end(),
+                                          [](const Body& a, const Body& b) { return speed(a) < speed(b); });
+  View view{scene.insitu.view_center, scene.insitu.view_size};
+  for (std::size_t a = 0; a < 3; ++a)
+    if (!is_set(view.center[a])) view.center[a] = calmest.center[a];
+  if (!is_set(view.size)) view.size = 1.6 * extent(calmest, scene.dimension);
+  return view;
+}
+
+std::map<std::string, ColourRange> default_ranges(const Scene& scene, const std::vector<Material>& materials) {
+  double fastest = 0, densest = 0, distension = 1, stiffest = 0;
+  for (const Body& b : scene.bodies) {
+    fastest = std::max(fastest, speed(b));
+    if (is_set(b.density)) densest = std::max(densest, b.density);
+    if (is_set(b.pressure)) stiffest = std::max(stiffest, b.pressure);
+  }
+  for (const Material& m : materials) {
+    densest = std::max(densest, m.solid() ? 1.2 * m.bulk_density() : densest);
+    if (m.porosity) distension = std::max(distension, m.porosity->initial_distension());
+    // A tenth of the pressure of a one-dimensional impact, rho v^2: what is left some way from the point of impact.
+    if (m.solid()) stiffest = std::max(stiffest, 0.1 * m.bulk_density() * fastest * fastest);
+  }
+  if (fastest == 0 && densest > 0) fastest = std::sqrt(stiffest / densest);
+  std::map<std::string, ColourRange> ranges{{"pressure", {std::min(0.0, -0.05 * stiffest), stiffest}},
+                                            {"density", {0, densest}},
+                                            {"velocity", {0, fastest}},
+                                            {"distension", {1, std::max(1.01, distension)}},
+                                            {"damage", {0, 1}}};
+  for (const auto& [name, range] : scene.insitu.ranges) ranges[name] = range;
+  return ranges;
+}
+
+template <int Dim>
+FragmentInput fragment_input(const Particles<Dim>& p) {
+  FragmentInput in;
+  for (int a = 0; a < Dim; ++a) {
+    in.position[static_cast<std::size_t>(a)] = p.column(Field::position, a);
+    in.velocity[static_cast<std::size_t>(a)] = p.column(Field::velocity, a);
+  }
+  in.mass = p.column(Field::mass);
+  in.density = p.column(Field::density);
+  if (p.has(Field::damage)) in.damage = p.column(Field::damage);
+  if (p.has(Field::distension)) in.distension = p.column(Field::distension);
+  in.id = p.label(Label::id);
+  in.body = p.label(Label::body);
+  in.material = p.label(Label::material);
+  return in;
+}
+
+template <int Dim>
+Frames<Dim>::Frames(const Simulation<Dim>& sim, std::filesystem::path folder, bool catalyst)
+    : folder_(std::move(folder)), view_(choose_view(sim.scene)), ranges_(default_ranges(sim.scene, sim.materials)) {
+  const InSitu& insitu = sim.scene.insitu;
+  std::filesystem::create_directories(folder_ / "images");
+  const int panels = static_cast<int>(slice_fields(sim.particles).size());
+  const auto [width, height] = panel_pixels(insitu.image_width, insitu.image_height, panels);
+  const double across = Dim == 3 ? view_.center[2] : view_.center[1];
+  // The picture must hold view_size in its smaller direction too.
+  const double visible = view_.size * std::max(1.0, static_cast<double>(width) / height);
+  grid_ = centred_grid(width, height, {view_.center[0], across}, visible);
+  if (Dim == 2) zeros_.assign(sim.particles.size(), 0.0);
+  if (!catalyst) return;
+  PipelineSettings settings;
+  settings.run_folder = std::filesystem::absolute(folder_).string();
+  settings.scene_title = sim.scene.title.empty() ? sim.scene.name : sim.scene.title;
+  settings.dimension = Dim;
+  settings.image_width = insitu.image_width;
+  settings.image_height = insitu.image_height;
+  settings.view_center = view_.center;
+  settings.view_size = view_.size;
+  settings.time_end = sim.scene.time_end;
+  settings.particle_radius = 0.6 * sim.scene.spacing;
+  settings.ranges = ranges_;
+  const auto scripts = insitu.pipelines.empty() ? default_pipelines(sim.scene.fragments.enabled) : insitu.pipelines;
+  bridge_ = std::make_unique<CatalystBridge>(scripts, settings);
+}
+
+template <int Dim>
+double Frames<Dim>::next_time() const {
+  return next_;
+}
+
+template <int Dim>
+void Frames<Dim>::resume(Simulation<Dim>& sim) {
+  const double interval = sim.scene.time_end / (sim.scene.insitu.frames - 1);
+  while (next_ <= sim.clock.time) next_ += interval;
+}
+
+template <int Dim>
+void Frames<Dim>::observe(Simulation<Dim>& sim, bool last) {
+  const double interval = sim.scene.time_end / (sim.scene.insitu.frames - 1);
+  const bool due = sim.clock.time >= next_ - 1e-9 * interval;
+  if ((!due && !last) || sim.clock.step == last_drawn_) return;
+  last_drawn_ = sim.clock.step;
+  ++drawn_;
+  if (sim.scene.fragments.enabled) sim.timers.time("in situ: fragments", [&] { find_fragments(sim); });
+  sim.timers.time("in situ: slice", [&] { sample(sim); });
+  if (sim.scene.insitu.enabled) {
+    sim.timers.time("in situ: images", [&] {
+      if (bridge_) {
+        draw_with_catalyst(sim);
+      } else {
+        draw_without_gl(sim);
+      }
+    });
+  }
+  collect_compaction(sim);
+  govern(sim);
+  while (next_ <= sim.clock.time * (1 + 1e-12)) next_ += interval * stretch_;
+  if (last) write_compaction_tables(sim);
+}
+
+/// Doubles the time between frames once in-situ work takes more than its share of the wall time.
+template <int Dim>
+void Frames<Dim>::govern(const Simulation<Dim>& sim) {
+  const double spent = insitu_seconds(sim.timers), share = spent / (spent + sim.wall_seconds);
+  constexpr int frames_before_judging = 5;  // the first frame pays for starting the renderer
+  if (++frame_ < frames_before_judging || share <= sim.scene.insitu.max_share) return;
+  stretch_ *= 2;
+  frame_ = 0;
+  spdlog::warn("in-situ work takes {:.0f} % of the wall time (insitu.max_share = {:.0f} %): time between frames doubled",
+               100 * share, 100 * sim.scene.insitu.max_share);
+}
+
+double insitu_seconds(const StageTimers& timers) {
+  double total = 0;
+  for (const StageTimers::Entry& e : timers.entries())
+    if (e.name.starts_with("in situ")) total += e.seconds;
+  return total;
+}
+
+template <int Dim>
+void Frames<Dim>::find_fragments(Simulation<Dim>& sim) {
+  fragments_ = tracker_.update(fragment_input(sim.particles), sim.scene.fragments);
+}
+
+template <int Dim>
+void Frames<Dim>::sample(const Simulation<Dim>& sim) {
+  const Particles<Dim>& p = sim.particles;
+  ParticleView view;
+  for (int a = 0; a < Dim; ++a) view.position[static_cast<std::size_t>(a)] = p.column(Field::position, a);
+  view.mass = p.column(Field::mass);
+  view.density = p.column(Field::density);
+  view.smoothing_length = p.column(Field::smoothing_length);
+  std::vector<FieldView> fields;
+  for (Field f : slice_fields(p)) fields.push_back(view_of(p, f));
+  const KernelShape kernel = with_kernel(sim.scene.numerics.kernel, [](auto k) {
+    using K = decltype(k);
+    return KernelShape{K::support, [](double q) { return K::template norm<Dim> * K::value(q); }};
+  });
+  slice_ = sample_slice(view, fields, kernel, grid_, view_.center[1]);
+}
+
+template <int Dim>
+std::vector<Channel> Frames<Dim>::channels(const Simulation<Dim>& sim) {
+  const Particles<Dim>& p = sim.particles;
+  Channel particles;
+  particles.name = "particles";
+  particles.count = p.size();
+  for (int a = 0; a < Dim; ++a) particles.position[static_cast<std::size_t>(a)] = p.column(Field::position, a);
+  if (Dim == 2) particles.position[2] = zeros_;
+  for (Field f : p.fields())
+    if (f != Field::position && info(f).role != Role::rate) particles.fields.push_back(view_of(p, f));
+  particles.indices = {{"id", p.label(Label::id)}, {"body", p.label(Label::body)}, {"material", p.label(Label::material)}};
+  if (fragments_) particles.indices.push_back({"fragment_number", fragments_->number});
+
+  Channel slice = image_channel(slice_, "slice");
+  if (Dim == 3) {  // the picture plane is x-z in space
+    slice.extent = {slice.extent[0], 1, slice.extent[1]};
+    slice.origin = {slice.origin[0], view_.center[1], slice.origin[1]};
+    slice.spacing = {slice.spacing[0], 1, slice.spacing[1]};
+  }
+  std::vector<Channel> all{particles, slice};
+  if (fragments_) all.push_back(fragment_channel());
+  return all;
+}
+
+template <int Dim>
+Channel Frames<Dim>::fragment_channel() {
+  enum { x, y, z, mass, vx, vy, vz, size, mean_damage, mean_distension };
+  for (auto& column : fragment_columns_) column.clear();
+  fragment_numbers_.clear();
+  for (const Fragment& f : fragments_->fragments) {
+    for (int a = 0; a < 3; ++a) {
+      fragment_columns_[static_cast<std::size_t>(x + a)].push_back(f.centre[a]);
+      fragment_columns_[static_cast<std::size_t>(vx + a)].push_back(f.velocity[a]);
+    }
+    fragment_columns_[mass].push_back(f.carried.mass);
+    fragment_columns_[size].push_back(f.semi_axes[0]);
+    fragment_columns_[mean_damage].push_back(f.mean_damage);
+    fragment_columns_[mean_distension].push_back(f.mean_distension);
+    fragment_numbers_.push_back(f.number);
+  }
+  const auto& c = fragment_columns_;
+  Channel channel;
+  channel.name = "fragments";
+  channel.count = fragment_numbers_.size();
+  channel.position = {c[x], c[y], c[z]};
+  channel.fields = {{"mass", Dim == 3 ? "kg" : "kg/m", {c[mass]}},
+                    {"velocity", "m/s", {c[vx], c[vy], c[vz]}},
+                    {"longest_semi_axis", "m", {c[size]}},
+                    {"damage", "1", {c[mean_damage]}},
+                    {"distension", "1", {c[mean_distension]}}};
+  channel.indices = {{"number", fragment_numbers_}};
+  return channel;
+}
+
+template <int Dim>
+void Frames<Dim>::draw_with_catalyst(Simulation<Dim>& sim) {
+  const std::vector<Channel> all = channels(sim);
+  const FrameReport report = bridge_->execute(sim.clock.step, sim.clock.time, all);
+  images_ += static_cast<int>(report.images.size());
+  for (const std::string& warning : report.warnings) {
+    if (sim.scene.insitu.on_error == OnError::abort) throw SimulationError("in situ: " + warning);
+    spdlog::warn("in situ: {}", warning);
+  }
+}
+
+template <int Dim>
+void Frames<Dim>::draw_without_gl(const Simulation<Dim>& sim) {
+  std::vector<Panel> panels;
+  std::vector<std::vector<double>> magnitudes;
+  magnitudes.reserve(slice_.fields.size());
+  for (Field f : slice_fields(sim.particles)) {
+    const SampledImage::Field& field = slice_.field(info(f).name);
+    std::span<const double> values = field.components[0];
+    if (field.components.size() > 1) {
+      std::vector<double>& magnitude = magnitudes.emplace_back(values.size());
+      for (std::size_t i = 0; i < magnitude.size(); ++i) {
+        double sum = 0;
+        for (const auto& component : field.components) sum += component[i] * component[i];
+        magnitude[i] = std::sqrt(sum);
+      }
+      values = magnitude;
+    }
+    const ColourRange range = ranges_.at(field.name);
+    panels.push_back({field.name, field.unit, values, range.min, range.max, map_of(field.name)});
+  }
+  const std::filesystem::path images = folder_ / "images";
+  const std::filesystem::path file = images / fmt::format("slice_{:06d}.png", sim.clock.step);
+  write_panels(file, sim.scene.insitu.image_width, sim.scene.insitu.image_height, grid_, panels,
+               {sim.scene.title, sim.clock.time, sim.scene.time_end, {"x", Dim == 3 ? "z" : "y"}});
+  if (!index_) index_.emplace(images);
+  images_ += static_cast<int>(index_->add_new_images(sim.clock.step, sim.clock.time).size());
+}
+
+template <int Dim>
+void Frames<Dim>::collect_compaction(const Simulation<Dim>& sim) {
+  const Particles<Dim>& p = sim.particles;
+  for (std::size_t m = 0; m < sim.materials.size(); ++m) {
+    if (!sim.materials[m].porosity) continue;
+    const CrushCurve& curve = sim.materials[m].porosity->curve;
+    const Range range = p.material_ranges()[m];
+    const std::size_t stride = std::max<std::size_t>(1, range.size() / samples_per_frame);
+    for (std::size_t i = range.begin; i < range.end; i += stride) {
+      const double pressure = p.column(Field::pressure)[i], alpha = p.column(Field::distension)[i];
+      if (alpha >= curve.initial_distension && pressure < curve.elastic_pressure) continue;  // untouched so far
+      compaction_pressure_.push_back(pressure);
+      compaction_distension_.push_back(alpha);
+      compaction_loading_.push_back(std::abs(alpha - curve.alpha(pressure)) < 1e-6 ? 1 : 0);
+    }
+  }
+}
+
+template <int Dim>
+void Frames<Dim>::write_compaction_tables(const Simulation<Dim>& sim) const {
+  for (const Material& material : sim.materials) {
+    if (!material.porosity) continue;
+    const CrushCurve& curve = material.porosity->curve;
+    std::vector<double> pressure, distension;
+    constexpr int points = 400;
+    const double first = 0.1 * curve.elastic_pressure, last = 2 * curve.solid_pressure;
+    for (int k = 0; k <= points; ++k) {
+      pressure.push_back(first * std::pow(last / first, static_cast<double>(k) / points));
+      distension.push_back(curve.alpha(pressure.back()));
+    }
+    std::filesystem::create_directories(folder_ / "figures");
+    write_crush_curve(folder_ / "figures/crush_curve.csv", pressure, distension);
+    write_compaction(folder_ / "figures/compaction.csv", compaction_pressure_, compaction_distension_,
+                     compaction_loading_);
+    return;  // one porous material is what the plot is for
+  }
+}
+
+template FragmentInput fragment_input<2>(const Particles<2>&);
+template FragmentInput fragment_input<3>(const Particles<3>&);
+template class Frames<2>;
+template class Frames<3>;
+
+}  // namespace ejecta

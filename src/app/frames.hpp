@@ -1,0 +1,80 @@
+#pragma once
+/// In situ: fragments, slices and the live columns go to Catalyst at the times of the frames.
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "insitu/catalyst_bridge.hpp"
+#include "insitu/image_index.hpp"
+#include "render/sampling.hpp"
+#include "simulation/fragments.hpp"
+#include "simulation/simulation.hpp"
+
+namespace ejecta {
+
+/// Centre and width [m] of what the images show.
+struct View {
+  Triple center;
+  double size;
+};
+/// What the scene says, or a frame about the body that moves least.
+View choose_view(const Scene& scene);
+
+/// Shown when the scene gives no range for a field: from what the scene knows, the same for all frames.
+std::map<std::string, ColourRange> default_ranges(const Scene& scene, const std::vector<Material>& materials);
+
+/// Wall time booked for in-situ work [s].
+double insitu_seconds(const StageTimers& timers);
+
+/// The columns of a simulation as fragments see them.
+template <int Dim>
+FragmentInput fragment_input(const Particles<Dim>& particles);
+
+template <int Dim>
+class Frames final : public Observer<Dim> {
+ public:
+  /// With `catalyst` images are drawn by the pipelines, otherwise by Ejecta's own painter.
+  Frames(const Simulation<Dim>& sim, std::filesystem::path folder, bool catalyst);
+
+  double next_time() const override;
+  void observe(Simulation<Dim>& sim, bool last) override;
+
+  /// Fragments as of the last frame; nothing if the scene does not ask for them.
+  const std::optional<FragmentTable>& fragments() const { return fragments_; }
+  int images() const { return images_; }
+  int drawn() const { return drawn_; }  ///< frames so far
+  /// After a restart: the next frame is the first one later than the checkpoint.
+  void resume(Simulation<Dim>& sim);
+
+ private:
+  void find_fragments(Simulation<Dim>& sim);
+  void sample(const Simulation<Dim>& sim);
+  void draw_with_catalyst(Simulation<Dim>& sim);
+  void draw_without_gl(const Simulation<Dim>& sim);
+  std::vector<Channel> channels(const Simulation<Dim>& sim);
+  Channel fragment_channel();
+  void govern(const Simulation<Dim>& sim);
+  void collect_compaction(const Simulation<Dim>& sim);
+  void write_compaction_tables(const Simulation<Dim>& sim) const;
+
+  std::filesystem::path folder_;
+  View view_;
+  std::map<std::string, ColourRange> ranges_;
+  PixelGrid grid_;
+  std::unique_ptr<CatalystBridge> bridge_;
+  FragmentTracker tracker_;
+  std::optional<FragmentTable> fragments_;
+  SampledImage slice_;
+  std::vector<double> zeros_;
+  std::array<std::vector<double>, 10> fragment_columns_;
+  std::vector<std::int32_t> fragment_numbers_;
+  std::vector<double> compaction_pressure_, compaction_distension_;
+  std::vector<std::int32_t> compaction_loading_;
+  std::optional<ImageIndex> index_;  ///< of the images drawn without Catalyst
+  std::int64_t last_drawn_ = -1;
+  double next_ = 0;                  ///< time of the next frame [s]
+  int frame_ = 0, drawn_ = 0, images_ = 0;
+  double stretch_ = 1;  ///< of the time between frames, by the governor
+};
+
+}  // namespace ejecta

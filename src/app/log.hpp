@@ -1,0 +1,11 @@
+#pragma once
+#include <spdlog/spdlog.h>
+
+#include <filesystem>
+
+namespace ejecta {
+
+/// Messages go to stderr, and from here on to run.log in the run folder too.
+void log_to_folder(const std::filesystem::path& folder, bool append);
+
+}  // namespace ejecta

@@ -1,0 +1,82 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <new>
+
+#include "app/log.hpp"
+#include "app/options.hpp"
+#include "base/errors.hpp"
+#include "insitu/gl_probe.hpp"
+#include "material/material_reader.hpp"
+
+namespace {
+
+void print_problems(const ejecta::InputError& error) {
+  for (const std::string& problem : error.problems()) fmt::print(stderr, "ejecta: {}\n", problem);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace ejecta;
+  spdlog::set_default_logger(spdlog::default_logger());
+  if (argc == 2 && std::string_view(argv[1]) == "gl-probe") return run_gl_probe();
+
+  CLI::App app{"Ejecta: impact, porous crushing and fragmentation by smoothed particles, seen while it runs."};
+  app.require_subcommand(1);
+  app.footer("Exit codes: 0 done, 2 something in the input is wrong (nothing was written), 3 the simulation failed\n"
+             "(results so far are kept).");
+  RunOptions options;
+  int threads = 0, frames_per_second = 0;
+  std::string folder, section;
+  auto overrides = [&](CLI::App* command) {
+    command->add_option("--set", options.overrides, "replace a value of the scene, e.g. --set time.end=20us (repeatable)")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+    command->add_option("--threads", threads, "threads (same as --set run.threads=N)")->check(CLI::PositiveNumber);
+  };
+  CLI::App* run = app.add_subcommand("run", "run a scene; images, tables and movies go to the run folder");
+  run->add_option("scene", options.scene_file, "scene file (TOML)")->required();
+  run->add_option("--out", options.out, "run folder (default: runs/<scene.name>)");
+  run->add_flag("--restart", options.restart, "go on from the last checkpoint in the run folder");
+  run->add_flag("--overwrite", options.overwrite, "replace the run folder if it exists");
+  overrides(run);
+  CLI::App* check = app.add_subcommand("check", "validate a scene; print stages, columns, memory and time");
+  check->add_option("scene", options.scene_file, "scene file (TOML)")->required();
+  overrides(check);
+  CLI::App* describe = app.add_subcommand("describe", "every key of a scene or material: unit, range, default, meaning");
+  describe->add_option("section", section, "one section, e.g. numerics or materials");
+  CLI::App* movie = app.add_subcommand("movie", "make the movies of a run folder again");
+  movie->add_option("folder", folder, "run folder")->required();
+  movie->add_option("--fps", frames_per_second, "frames per second (default: about eight seconds in all)");
+  CLI::App* replay = app.add_subcommand("replay", "show the last checkpoint of a run folder to the pipelines once");
+  replay->add_option("folder", folder, "run folder")->required();
+  replay->add_option("--out", options.out, "where the images go (default: <folder>/replay)");
+  CLI::App* info = app.add_subcommand("info", "version, compiler, vector width");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const int code = app.exit(error);
+    return code == 0 ? 0 : 2;
+  }
+  if (threads > 0) options.overrides.push_back(fmt::format("run.threads={}", threads));
+
+  try {
+    if (*run) return run_command(options);
+    if (*check) return check_command(options.scene_file, options.overrides);
+    if (*movie) return movie_command(folder, frames_per_second);
+    if (*replay) return replay_command(folder, options.out);
+    if (*describe) fmt::print("{}", reference(section));
+    if (*info) return info_command();
+    return 0;
+  } catch (const InputError& error) {
+    print_problems(error);
+    return 2;
+  } catch (const SimulationError& error) {
+    fmt::print(stderr, "ejecta: {}\n", error.what());
+    return 3;
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "ejecta: out of memory\n");
+    return 3;
+  }
+}

@@ -1,0 +1,25 @@
+#pragma once
+#include <string>
+#include <vector>
+
+namespace ejecta {
+
+/// What the command line of `ejecta run` says.
+struct RunOptions {
+  std::string scene_file;
+  std::string out;                     ///< run folder; empty: runs/<scene.name>
+  std::vector<std::string> overrides;  ///< key=value
+  bool restart = false;                ///< go on from the last checkpoint in the run folder
+  bool overwrite = false;              ///< replace an existing run folder
+};
+
+int run_command(const RunOptions& options);
+int check_command(const std::string& scene_file, const std::vector<std::string>& overrides);
+int movie_command(const std::string& folder, int frames_per_second);
+int replay_command(const std::string& folder, const std::string& out);
+int info_command();
+
+/// The folder of shipped material files.
+std::string material_library();
+
+}  // namespace ejecta

@@ -1,0 +1,42 @@
+#include <filesystem>
+
+#include "app/checkpoints.hpp"
+#include "app/frames.hpp"
+#include "app/log.hpp"
+#include "app/options.hpp"
+#include "base/errors.hpp"
+#include "insitu/gl_probe.hpp"
+#include "material/material_reader.hpp"
+#include "scene/scene_reader.hpp"
+
+namespace ejecta {
+
+namespace {
+
+template <int Dim>
+int replay_in(const Scene& scene, const Materials& materials, const Checkpoint& checkpoint,
+              const std::filesystem::path& out) {
+  auto sim = set_up<Dim>(scene, materials.list);
+  restore(*sim, checkpoint);
+  std::filesystem::create_directories(out);
+  Frames<Dim> frames(*sim, out, gl_works());
+  frames.observe(*sim, true);
+  spdlog::info("{} images in {}", frames.images(), (out / "images").string());
+  return 0;
+}
+
+}  // namespace
+
+int replay_command(const std::string& folder, const std::string& out) {
+  const std::filesystem::path run = folder;
+  const auto file = latest_checkpoint(run / "checkpoints");
+  if (!file) throw InputError(folder + ": expected a run folder with a checkpoint, found none");
+  const Checkpoint checkpoint = read_checkpoint(*file);
+  const Scene scene = parse_scene(checkpoint.scene, file->string());
+  const Materials materials = read_materials(scene, material_library());
+  const std::filesystem::path to = out.empty() ? run / "replay" : std::filesystem::path(out);
+  return scene.dimension == 2 ? replay_in<2>(scene, materials, checkpoint, to)
+                              : replay_in<3>(scene, materials, checkpoint, to);
+}
+
+}  // namespace ejecta

@@ -1,0 +1,126 @@
+#include "app/resources.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <numbers>
+
+#include "base/errors.hpp"
+#include "base/parallel.hpp"
+#include "schemes/kernels.hpp"
+#include "simulation/shapes.hpp"
+#include "simulation/stages.hpp"
+
+namespace ejecta {
+
+namespace {
+
+constexpr double bytes_of_lists = 330;   ///< pair lists and records of a particle, measured at about 70 neighbours
+constexpr double particle_steps_per_s = 0.9e6;  ///< of one core, measured; `ejecta check` says it is an estimate
+
+template <int Dim>
+double bytes_of_columns(const Scene& scene, const std::vector<Material>& materials) {
+  double doubles = 2, labels = 4;  // scratch for sorting, and the share of damaged stress
+  for (Field f : fields_of(choose_stages<Dim>(scene, materials)))
+    doubles += components(info(f).shape, Dim) * (info(f).role == Role::rate ? 2 : 1);
+  return doubles * sizeof(double) + labels * sizeof(std::int32_t);
+}
+
+double free_memory() {
+  std::ifstream meminfo("/proc/meminfo");
+  std::string key, unit;
+  for (double kilobytes; meminfo >> key >> kilobytes >> unit;)
+    if (key == "MemAvailable:") return 1024 * kilobytes;
+  return std::numeric_limits<double>::infinity();
+}
+
+/// Speed of sound at rest [m/s].
+double resting_sound_speed(const Material& material, const Body& body) {
+  return std::visit(
+      [&](const auto& eos) {
+        const double rho = is_set(body.density) ? body.density : eos.reference_density();
+        double e = body.specific_energy;
+        if (is_set(body.pressure))
+          if constexpr (requires { eos.energy(rho, body.pressure); }) e = eos.energy(rho, body.pressure);
+        const double c = sound_speed(eos.evaluate(rho, e), rho, eos.sound_speed_floor());
+        const double shear = material.solid() ? 4 * material.elastic->shear_modulus / (3 * rho) : 0;
+        return std::sqrt(c * c + shear);
+      },
+      material.eos);
+}
+
+}  // namespace
+
+bool is_writable(const std::filesystem::path& folder) { return access(folder.c_str(), W_OK | X_OK) == 0; }
+
+std::int64_t folder_bytes(const std::filesystem::path& folder) {
+  std::int64_t bytes = 0;
+  if (std::filesystem::exists(folder))
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+      if (entry.is_regular_file()) bytes += static_cast<std::int64_t>(entry.file_size());
+  return bytes;
+}
+
+Estimate estimate(const Scene& scene, const std::vector<Material>& materials) {
+  Estimate e;
+  double least_step = std::numeric_limits<double>::infinity();
+  const Numerics& n = scene.numerics;
+  for (const Body& body : scene.bodies) {
+    const double spacing = scene.spacing * body.spacing_factor;
+    e.particles += volume(body, scene.dimension) / std::pow(spacing, scene.dimension);
+    const auto material = std::find_if(materials.begin(), materials.end(), [&](const Material& m) { return m.name == body.material; });
+    const double sound = resting_sound_speed(*material, body);
+    least_step = std::min(least_step, n.courant * n.nodes_per_h * spacing / (sound * (1 + 0.6 * n.viscosity_alpha)));
+  }
+  e.bytes_per_particle = bytes_of_lists + (scene.dimension == 2 ? bytes_of_columns<2>(scene, materials)
+                                                               : bytes_of_columns<3>(scene, materials));
+  e.steps = scene.time_end / least_step;
+  if (scene.max_steps > 0) e.steps = std::min(e.steps, static_cast<double>(scene.max_steps));
+  const int threads = scene.threads > 0 ? scene.threads : available_cores();
+  e.seconds = e.particles * e.steps / (particle_steps_per_s * threads);
+  return e;
+}
+
+void check_memory(const Scene& scene, const std::vector<Material>& materials) {
+  const Estimate e = estimate(scene, materials);
+  const double needed = e.particles * e.bytes_per_particle, free = free_memory();
+  if (needed < free && e.particles < 2e9) return;
+  throw InputError(fmt::format("{}: resolution.spacing: expected a scene that fits in the {:.1f} GB of free memory, got "
+                               "{:.3g} particles that need {:.3g} GB",
+                               scene.file, free / 1e9, e.particles, needed / 1e9));
+}
+
+template <int Dim>
+std::size_t memory_bytes(const Simulation<Dim>& sim) {
+  return sim.particles.bytes() + sim.lists.bytes() + sim.pass->bytes() + sim.intact.capacity() * sizeof(double) +
+         sim.order.capacity() * sizeof(std::uint32_t);
+}
+
+template <int Dim>
+double mean_neighbours(const Simulation<Dim>& sim) {
+  const double radius = kernel_support(sim.scene.numerics.kernel);
+  const auto sum = sim.particles.column(Field::neighbour_sum);
+  const double unit_ball = Dim == 2 ? std::numbers::pi : 4 * std::numbers::pi / 3;
+  return parallel_sum<double>(sum.size(), [&](std::size_t i) {
+           return unit_ball * std::pow(radius * sim.support->effective_nodes_per_h(sum[i]), Dim);
+         }) / static_cast<double>(sum.size());
+}
+
+std::string timer_table(const StageTimers& timers) {
+  double total = 0;
+  for (const auto& e : timers.entries()) total += e.seconds;
+  std::string text = fmt::format("{:<22}{:>12}{:>9}{:>10}\n", "stage", "seconds", "share", "calls");
+  for (const auto& e : timers.entries())
+    text += fmt::format("{:<22}{:>12.3f}{:>8.1f}%{:>10}\n", e.name, e.seconds, 100 * e.seconds / total, e.calls);
+  return text;
+}
+
+template std::size_t memory_bytes<2>(const Simulation<2>&);
+template std::size_t memory_bytes<3>(const Simulation<3>&);
+template double mean_neighbours<2>(const Simulation<2>&);
+template double mean_neighbours<3>(const Simulation<3>&);
+
+}  // namespace ejecta

@@ -1,0 +1,194 @@
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "app/checkpoints.hpp"
+#include "app/frames.hpp"
+#include "app/log.hpp"
+#include "app/options.hpp"
+#include "app/resources.hpp"
+#include "app/signals.hpp"
+#include "app/tables.hpp"
+#include "base/errors.hpp"
+#include "base/parallel.hpp"
+#include "insitu/gl_probe.hpp"
+#include "material/material_reader.hpp"
+#include "output/atomic_file.hpp"
+#include "output/summary.hpp"
+#include "render/figure.hpp"
+#include "render/movie.hpp"
+#include "scene/names.hpp"
+#include "scene/scene_reader.hpp"
+#include "scene/units.hpp"
+
+namespace ejecta {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What a run is given once input has been checked.
+struct Job {
+  Scene scene;
+  Materials materials;
+  std::string resolved;
+  fs::path folder;
+  bool restart, overwrite, catalyst;
+};
+
+/// The run folder must be new (or empty), unless the run goes on in it or may replace it. Nothing is touched here.
+void check_folder(const RunOptions& options, const fs::path& folder) {
+  const bool there = fs::exists(folder) && !(fs::is_directory(folder) && fs::is_empty(folder));
+  if (there && !fs::is_directory(folder))
+    throw InputError(folder.string() + ": expected a folder for the run, got a file");
+  if (there && !options.restart && !options.overwrite)
+    throw InputError(folder.string() + ": expected a new folder, got one with files in it; use --out DIR for another, "
+                                       "--restart to go on from its last checkpoint, or --overwrite to replace it");
+  if (options.restart && !latest_checkpoint(folder / "checkpoints"))
+    throw InputError(folder.string() + ": expected a checkpoint to restart from, found none");
+  // The nearest existing parent must let us in.
+  fs::path parent = fs::absolute(folder);
+  while (!fs::exists(parent)) parent = parent.parent_path();
+  if (!is_writable(parent)) throw InputError(parent.string() + ": expected a folder to write to, got no permission");
+}
+
+void prepare_folder(const Job& job) {
+  std::error_code failure;
+  if (job.overwrite && !job.restart) fs::remove_all(job.folder, failure);
+  if (!failure) fs::create_directories(job.folder, failure);
+  if (failure) throw InputError(fmt::format("{}: expected a folder to write to, got: {}", job.folder.string(), failure.message()));
+  log_to_folder(job.folder, job.restart);
+  write_atomically(job.folder / "resolved.toml", job.resolved);
+}
+
+template <int Dim>
+Summary summarise(const Simulation<Dim>& sim, const Frames<Dim>& frames, const fs::path& folder, int exit_code) {
+  Summary s;
+  const ConservationErrors errors = conservation_errors(sim.initial, totals(sim.particles));
+  const double n = static_cast<double>(sim.particles.size()), steps = static_cast<double>(sim.clock.step);
+  s.scene = sim.scene.name;
+  s.dimension = Dim;
+  s.scheme = name_of(sim.scene.numerics.scheme);
+  s.precision = name_of(sim.scene.numerics.precision);
+  s.threads = max_threads();
+  s.particles = static_cast<std::int64_t>(sim.particles.size());
+  s.steps = sim.clock.step;
+  s.time_s = sim.clock.time;
+  const double insitu = insitu_seconds(sim.timers);
+  s.wall_s = sim.wall_seconds + insitu;
+  if (sim.wall_seconds > 0) s.particle_steps_per_s = n * steps / sim.wall_seconds;
+  s.neighbours_mean = mean_neighbours(sim);
+  if (s.particle_steps_per_s) s.pair_interactions_per_s = *s.particle_steps_per_s * *s.neighbours_mean;
+  s.bytes_per_particle = static_cast<double>(memory_bytes(sim)) / n;
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  s.peak_rss_mb = static_cast<double>(usage.ru_maxrss) / 1024;
+  s.mass_error_rel = errors.mass;
+  s.momentum_error_rel = errors.momentum;
+  s.energy_error_rel = errors.energy;
+  s.images = frames.images();
+  s.insitu_share = s.wall_s > 0 ? insitu / s.wall_s : 0;
+  s.insitu_bytes_written = folder_bytes(folder / "images");
+  s.full_dump_bytes_avoided = static_cast<std::int64_t>(Checkpoints<Dim>::dump_bytes(sim) * frames.drawn());
+  if (frames.fragments()) {
+    const auto& pieces = frames.fragments()->fragments;
+    s.fragments = static_cast<std::int64_t>(pieces.size());
+    s.largest_fragment_mass_fraction =
+        pieces.empty() ? 0 : pieces.front().carried.mass / fragment_context(sim).target_mass;
+  }
+  s.exit = exit_code;
+  return s;
+}
+
+/// Everything that is written once, when the run is over for whatever reason.
+template <int Dim>
+void conclude(Simulation<Dim>& sim, const Frames<Dim>& frames, const Job& job, int exit_code) {
+  if (frames.fragments()) {
+    const FragmentContext context = fragment_context(sim);
+    write_fragments(job.folder / "fragments.csv", *frames.fragments(), context);
+    write_fragment_distribution(job.folder / "fragment_distribution.csv", *frames.fragments(), context);
+    for (const FragmentSensitivity& s : fragment_sensitivity(fragment_input(sim.particles), sim.scene.fragments))
+      spdlog::info("fragments at linking length {:.2f}: {}, largest {:.2f} %, dust {:.1f} % of all mass", s.linking_length,
+                   s.fragments, 100 * s.largest_mass_fraction, 100 * s.dust_mass_fraction);
+  }
+  FigureSettings figures;
+  figures.title = sim.scene.title;
+  figures.resolution_limit = sim.scene.fragments.min_particles * sim.particles.column(Field::mass)[0];
+  for (const Figure& figure : make_figures(job.folder, figures))
+    if (!figure.problem.empty()) spdlog::warn("{}: {}", figure.file.filename().string(), figure.problem);
+  if (frames.images() > 0)
+    for (const std::string& problem : make_movies(job.folder).problems) spdlog::warn("movie: {}", problem);
+  std::vector<TimerRow> rows;
+  for (const StageTimers::Entry& e : sim.timers.entries()) rows.push_back({e.name, e.seconds, e.calls});
+  write_timers(job.folder / "timers.csv", rows);
+  const Summary summary = summarise(sim, frames, job.folder, exit_code);
+  write_summary(job.folder / "summary.json", summary);
+  fmt::print("{}\n", timer_table(sim.timers));
+  fmt::print("{}\n", summary_json(summary));
+  spdlog::info("results in {}", job.folder.string());
+}
+
+template <int Dim>
+int run_in(const Job& job) {
+  auto sim = set_up<Dim>(job.scene, job.materials.list);
+  prepare_folder(job);
+  std::optional<double> resume_at;
+  if (job.restart) {
+    const Checkpoint checkpoint = read_checkpoint(*latest_checkpoint(job.folder / "checkpoints"));
+    restore(*sim, checkpoint);
+    resume_at = sim->clock.time;
+    spdlog::info("restarted from {} at t = {}", checkpoint.file.filename().string(), format_quantity(*resume_at, "s"));
+  }
+  Frames<Dim> frames(*sim, job.folder, job.catalyst);
+  if (job.restart) frames.resume(*sim);
+  Tables<Dim> tables(*sim, job.folder, frames, resume_at);
+  Checkpoints<Dim> checkpoints(job.folder, job.resolved, job.scene);
+  Progress<Dim> progress;
+  install_stop_signals();
+  spdlog::info("{}: {} particles in {}D, {} threads, {:.0f} bytes a particle", job.scene.name, sim->particles.size(), Dim,
+               max_threads(), static_cast<double>(memory_bytes(*sim)) / static_cast<double>(sim->particles.size()));
+  const std::vector<Observer<Dim>*> observers{&frames, &tables, &checkpoints, &progress};
+  try {
+    const bool finished = run(*sim, observers, stop_requested);
+    if (!finished) spdlog::warn("stopped by a signal; --restart goes on from here");
+  } catch (const SimulationError& error) {
+    spdlog::error("{}", error.what());
+    write_checkpoint(job.folder / fmt::format("checkpoints/failed_{:06d}.h5", sim->clock.step),
+                     checkpoint_view(*sim, job.resolved));
+    frames.observe(*sim, true);
+    tables.observe(*sim, true);
+    conclude(*sim, frames, job, 3);
+    return 3;
+  }
+  conclude(*sim, frames, job, 0);
+  return 0;
+}
+
+}  // namespace
+
+int run_command(const RunOptions& options) {
+  Job job;
+  job.scene = read_scene(options.scene_file, options.overrides);
+  job.materials = read_materials(job.scene, material_library());
+  job.resolved = resolved_toml(job.scene, job.materials);
+  job.folder = options.out.empty() ? fs::path("runs") / job.scene.name : fs::path(options.out);
+  job.restart = options.restart;
+  job.overwrite = options.overwrite;
+  check_folder(options, job.folder);
+  check_memory(job.scene, job.materials.list);
+  set_threads(job.scene.threads > 0 ? job.scene.threads : available_cores());
+  if (job.scene.insitu.enabled) {
+    check_pipeline_scripts(job.scene.insitu.pipelines);
+    job.catalyst = gl_works();
+    if (!job.catalyst) {
+      if (job.scene.insitu.on_error == OnError::abort)
+        throw InputError(job.scene.file + ": insitu.on_error: expected rendering to work here, got no OpenGL context");
+      spdlog::warn("no OpenGL here: Catalyst is left out, slices are drawn by Ejecta itself, all data are written");
+    }
+  }
+  return job.scene.dimension == 2 ? run_in<2>(job) : run_in<3>(job);
+}
+
+}  // namespace ejecta

@@ -1,0 +1,124 @@
+#include "app/tables.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/log.hpp"
+#include "base/parallel.hpp"
+#include "scene/units.hpp"
+
+namespace ejecta {
+
+namespace {
+constexpr double damaged = 0.99;
+constexpr std::chrono::seconds between_lines{5};
+
+std::string hours(double seconds) {
+  const auto s = static_cast<long>(seconds + 0.5);
+  return s >= 3600 ? fmt::format("{}:{:02d}:{:02d}", s / 3600, s / 60 % 60, s % 60) : fmt::format("{}:{:02d}", s / 60, s % 60);
+}
+}  // namespace
+
+template <int Dim>
+FragmentContext fragment_context(const Simulation<Dim>& sim) {
+  FragmentContext context;
+  context.dimension = Dim;
+  // The target is the body of largest mass.
+  std::vector<double> mass(sim.scene.bodies.size(), 0);
+  for (std::size_t i = 0; i < sim.particles.size(); ++i)
+    mass[static_cast<std::size_t>(sim.particles.label(Label::body)[i])] += sim.particles.column(Field::mass)[i];
+  context.target_mass = *std::max_element(mass.begin(), mass.end());
+  for (const Body& b : sim.scene.bodies) context.bodies.push_back(b.name);
+  for (const Material& m : sim.materials) context.materials.push_back(m.name);
+  return context;
+}
+
+template <int Dim>
+HistoryRow history_row(const Simulation<Dim>& sim, const std::optional<FragmentTable>& fragments) {
+  const Particles<Dim>& p = sim.particles;
+  const Totals now = totals(p);
+  HistoryRow row;
+  row.time = sim.clock.time;
+  row.step = sim.clock.step;
+  row.dt = sim.clock.dt;
+  row.limited_by = std::string(sim.vote.reason);
+  row.kinetic_energy = now.kinetic;
+  row.internal_energy = now.internal;
+  row.energy_error = conservation_errors(sim.initial, now).energy;
+  row.momentum = {now.momentum[0], now.momentum[1], now.momentum[2]};
+  row.mass = now.mass;
+  constexpr double huge = std::numeric_limits<double>::max();
+  auto least = [&](Field f, double sign) {
+    return sign * parallel_min(p.size(), huge, [&](std::size_t i) { return sign * p.column(f)[i]; }).value;
+  };
+  row.max_pressure = least(Field::pressure, -1);
+  row.min_density = least(Field::density, 1);
+  row.max_density = least(Field::density, -1);
+  if (p.has(Field::distension)) row.min_distension = least(Field::distension, 1);
+  if (p.has(Field::damage))
+    row.damaged_mass_fraction = parallel_sum<double>(p.size(), [&](std::size_t i) {
+                                  return p.column(Field::damage)[i] > damaged ? p.column(Field::mass)[i] : 0.0;
+                                }) / now.mass;
+  if (fragments) {
+    row.fragments = static_cast<std::int64_t>(fragments->fragments.size());
+    row.largest_fragment_mass_fraction =
+        fragments->fragments.empty() ? 0 : fragments->fragments.front().carried.mass / fragment_context(sim).target_mass;
+  }
+  return row;
+}
+
+template <int Dim>
+Tables<Dim>::Tables(const Simulation<Dim>& sim, const std::filesystem::path& folder, const Frames<Dim>& frames,
+                    std::optional<double> resume_at)
+    : interval_(is_set(sim.scene.output.history_interval) ? sim.scene.output.history_interval
+                                                          : sim.scene.time_end / 200),
+      next_(resume_at.value_or(0)),
+      frames_(frames),
+      history_(folder / "history.csv", Dim, resume_at),
+      context_(fragment_context(sim)) {
+  if (sim.scene.fragments.enabled) largest_.emplace(folder / "largest_fragment.csv", resume_at);
+}
+
+template <int Dim>
+void Tables<Dim>::observe(Simulation<Dim>& sim, bool last) {
+  if (sim.clock.time < next_ && !last) return;
+  while (next_ <= sim.clock.time) next_ += interval_;
+  sim.timers.time("tables", [&] {
+    history_.write(history_row(sim, frames_.fragments()));
+    if (largest_ && frames_.fragments()) largest_->write(sim.clock.time, *frames_.fragments(), context_);
+  });
+}
+
+template <int Dim>
+void Progress<Dim>::observe(Simulation<Dim>& sim, bool last) {
+  const auto now = clock::now();
+  if (start_time_ < 0) {
+    start_time_ = sim.clock.time;
+    shown_step_ = sim.clock.step;
+  }
+  if (now - shown_ < between_lines && !last) return;
+  const double elapsed = std::chrono::duration<double>(now - start_).count();
+  const double done = sim.clock.time - start_time_, left = sim.scene.time_end - sim.clock.time;
+  const std::string eta = done > 0 && !last ? "  ETA " + hours(elapsed * left / done) : "";
+  const double rate = sim.wall_seconds > 0
+                          ? static_cast<double>(sim.particles.size()) *
+                                static_cast<double>(sim.clock.step - shown_step_) / sim.wall_seconds / 1e6
+                          : 0;
+  spdlog::info("step {:6d}  t {:>10} of {}  dt {:>9} by {}  {:.2f} M particle-steps/s  dE/E {:+.1e}{}", sim.clock.step,
+               format_quantity(sim.clock.time, "s"), format_quantity(sim.scene.time_end, "s"),
+               format_quantity(sim.clock.dt, "s"), sim.vote.reason, rate,
+               conservation_errors(sim.initial, totals(sim.particles)).energy, eta);
+  shown_ = now;
+}
+
+template HistoryRow history_row<2>(const Simulation<2>&, const std::optional<FragmentTable>&);
+template HistoryRow history_row<3>(const Simulation<3>&, const std::optional<FragmentTable>&);
+template FragmentContext fragment_context<2>(const Simulation<2>&);
+template FragmentContext fragment_context<3>(const Simulation<3>&);
+template class Tables<2>;
+template class Tables<3>;
+template class Progress<2>;
+template class Progress<3>;
+
+}  // namespace ejecta

@@ -1,0 +1,148 @@
+#include "insitu/catalyst_bridge.hpp"
+
+#include <vtkCPDataDescription.h>
+#include <vtkCPInputDataDescription.h>
+#include <vtkCPProcessor.h>
+#include <vtkCPPythonPipeline.h>
+#include <vtkDataSet.h>
+#include <vtkNew.h>
+#include <vtkPythonInterpreter.h>
+#include <vtkSmartPointer.h>
+
+#include <array>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <limits>
+
+#include "base/errors.hpp"
+#include "insitu/headless_window.hpp"
+#include "insitu/image_index.hpp"
+#include "insitu/insitu_log.hpp"
+#include "insitu/vtk_channels.hpp"
+
+namespace ejecta {
+namespace {
+
+/// Python and ParaView install signal handlers of their own; the run's are put back when this goes out of scope.
+class KeepSignalHandlers {
+ public:
+  KeepSignalHandlers() {
+    for (std::size_t i = 0; i < signals.size(); ++i) sigaction(signals[i], nullptr, &actions_[i]);
+  }
+  ~KeepSignalHandlers() {
+    for (std::size_t i = 0; i < signals.size(); ++i) sigaction(signals[i], &actions_[i], nullptr);
+  }
+  KeepSignalHandlers(const KeepSignalHandlers&) = delete;
+  KeepSignalHandlers& operator=(const KeepSignalHandlers&) = delete;
+
+ private:
+  static constexpr std::array signals{SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL};
+  std::array<struct sigaction, signals.size()> actions_{};
+};
+
+struct Script {
+  std::string path;
+  vtkSmartPointer<vtkCPPythonPipeline> pipeline;
+  bool has_failed = false;
+};
+
+std::filesystem::path images_folder(const PipelineSettings& settings) {
+  return std::filesystem::path(settings.run_folder) / "images";
+}
+
+}  // namespace
+
+struct CatalystBridge::State {
+  PipelineSettings settings;
+  LogRedirection redirection;
+  ImageIndex index;
+  VtkChannels wrapper;
+  vtkNew<vtkCPProcessor> processor;
+  vtkNew<vtkCPDataDescription> description;
+  std::vector<Script> scripts;
+  std::int64_t last_step = std::numeric_limits<std::int64_t>::min();
+  int failures = 0;
+
+  explicit State(PipelineSettings s)
+      : settings(std::move(s)), redirection(settings.run_folder + "/insitu.log"), index(images_folder(settings)) {}
+
+  void publish(std::span<const Channel> channels, std::int64_t step, double time);
+  bool run(Script& script);
+};
+
+/// Hands the frame to ParaView: the settings through Python's environment, the data through the description.
+void CatalystBridge::State::publish(std::span<const Channel> channels, std::int64_t step, double time) {
+  const std::string assignment =
+      "import os; os.environ['EJECTA_FRAME'] = " + json_string(frame_json(settings, channels)) + "\n";
+  vtkPythonInterpreter::RunSimpleString(assignment.c_str());
+  description->SetTimeData(time, step);
+  description->ForceOutputOn();
+  for (const Channel& channel : channels) {
+    description->AddInput(channel.name.c_str());
+    vtkCPInputDataDescription* input = description->GetInputDescriptionByName(channel.name.c_str());
+    input->AllFieldsOn();
+    input->GenerateMeshOn();
+    input->SetGrid(wrapper.wrap(channel));
+  }
+}
+
+bool CatalystBridge::State::run(Script& script) {
+  redirection.log().clear();
+  if (!script.pipeline->RequestDataDescription(description)) return true;  // its own trigger says: not now
+  return script.pipeline->CoProcess(description) != 0;
+}
+
+CatalystBridge::CatalystBridge(const std::vector<std::string>& scripts, PipelineSettings settings) {
+  const KeepSignalHandlers keep;
+  settings.run_folder = std::filesystem::absolute(settings.run_folder).string();
+  const std::string images = images_folder(settings).string();
+  setenv("PARAVIEW_OVERRIDE_EXTRACTS_OUTPUT_DIRECTORY", images.c_str(), 1);
+  setenv("VTK_SILENCE_GET_VOID_POINTER_WARNINGS", "1", 1);  // some filters copy our separate x, y, z: that is fine
+  state_ = std::make_unique<State>(std::move(settings));
+  use_headless_window();
+  vtkPythonInterpreter::Initialize(0);
+  vtkPythonInterpreter::PrependPythonPath(EJECTA_SCRIPT_FOLDER);
+  // Without output to the terminal ParaView's Python logger would write every step it takes.
+  vtkPythonInterpreter::RunSimpleString("import logging, paraview; paraview.logger.setLevel(logging.WARNING)\n");
+  state_->processor->Initialize();
+  state_->redirection.reinstate();  // ParaView has set its own
+  for (const std::string& path : scripts) {
+    auto pipeline = vtkCPPythonPipeline::CreateAndInitializePipeline(path.c_str(), 2);
+    if (!pipeline) throw InputError(state_->redirection.log().reason(path));
+    state_->scripts.push_back({path, pipeline});
+  }
+}
+
+CatalystBridge::~CatalystBridge() {
+  const KeepSignalHandlers keep;
+  for (Script& script : state_->scripts) script.pipeline->Finalize();
+  state_->scripts.clear();
+  state_->processor->Finalize();
+}
+
+FrameReport CatalystBridge::execute(std::int64_t step, double time, std::span<const Channel> channels) {
+  using Clock = std::chrono::steady_clock;
+  FrameReport report;
+  if (step == state_->last_step) return report;
+  state_->last_step = step;
+  const KeepSignalHandlers keep;
+  state_->publish(channels, step, time);
+  for (Script& script : state_->scripts) {
+    const auto start = Clock::now();
+    const bool done = state_->run(script);
+    report.pipelines.push_back({std::filesystem::path(script.path).stem().string(),
+                                std::chrono::duration<double>(Clock::now() - start).count()});
+    if (done) continue;
+    ++state_->failures;
+    if (!script.has_failed) report.warnings.push_back(state_->redirection.log().reason(script.path));
+    script.has_failed = true;
+  }
+  report.images = state_->index.add_new_images(step, time);
+  return report;
+}
+
+int CatalystBridge::failures() const { return state_->failures; }
+
+}  // namespace ejecta

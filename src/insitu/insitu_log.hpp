@@ -1,0 +1,46 @@
+#pragma once
+/// Where VTK, ParaView and the scripts' own output go: a file of the run folder instead of the terminal.
+#include <vtkOutputWindow.h>
+#include <vtkSmartPointer.h>
+
+#include <fstream>
+#include <string>
+
+namespace ejecta {
+
+/// Appends every message to a file (none if the path is empty) and keeps the text since the last clear().
+class InsituLog : public vtkOutputWindow {
+ public:
+  static InsituLog* New();
+  vtkTypeMacro(InsituLog, vtkOutputWindow);
+
+  void open(const std::string& path) { file_.open(path, std::ios::app); }
+  void DisplayText(const char* text) override;
+
+  const std::string& text() const { return text_; }
+  void clear() { text_.clear(); }
+  /// The end of the text as one line: of a Python traceback the exception, with the script's line that raised it.
+  std::string reason(const std::string& script) const;
+
+ private:
+  std::ofstream file_;
+  std::string text_;
+};
+
+/// Makes an InsituLog VTK's output window for as long as it lives.
+class LogRedirection {
+ public:
+  explicit LogRedirection(const std::string& path);
+  ~LogRedirection();
+  LogRedirection(const LogRedirection&) = delete;
+  LogRedirection& operator=(const LogRedirection&) = delete;
+  InsituLog& log() { return *log_; }
+  /// Takes the output back from whoever has set a window of its own since.
+  void reinstate() { vtkOutputWindow::SetInstance(log_); }
+
+ private:
+  vtkSmartPointer<vtkOutputWindow> previous_;
+  vtkSmartPointer<InsituLog> log_;
+};
+
+}  // namespace ejecta

@@ -1,0 +1,109 @@
+#include "insitu/pipelines.hpp"
+
+#include <vtkCPPythonPipeline.h>
+#include <vtkPythonInterpreter.h>
+
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+#include "base/errors.hpp"
+#include "insitu/insitu_log.hpp"
+
+namespace ejecta {
+namespace {
+
+std::string number(double value) {
+  if (!std::isfinite(value)) return "null";
+  char buffer[32];
+  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
+}
+
+/// The message of the compiler for `path`, as file:line: text; empty if it compiles.
+std::string syntax_problem(const std::string& path) {
+  LogRedirection redirection("");
+  vtkPythonInterpreter::Initialize(0);
+  const std::string name = json_string(path);
+  const std::string check =
+      "try:\n"
+      "    with open(" +
+      name + ", 'rb') as source: compile(source.read(), " + name +
+      ", 'exec', dont_inherit=True)\n"
+      "except SyntaxError as error: print(f'{error.filename}:{error.lineno}: {error.msg}')\n"
+      "except Exception as error: print(" +
+      name + " + f': {error}')\n";
+  vtkPythonInterpreter::RunSimpleString(check.c_str());
+  std::string problem = redirection.log().text();
+  while (!problem.empty() && problem.back() == '\n') problem.pop_back();
+  return problem;
+}
+
+}  // namespace
+
+std::vector<std::string> default_pipelines(bool fragments) {
+  const std::filesystem::path folder = std::filesystem::weakly_canonical(EJECTA_SCRIPT_FOLDER);
+  std::vector<std::string> scripts{folder / "slice.py", folder / "cutaway.py"};
+  if (fragments) scripts.push_back(folder / "fragments.py");
+  return scripts;
+}
+
+void check_pipeline_scripts(const std::vector<std::string>& paths) {
+  std::vector<std::string> problems;
+  for (const std::string& path : paths) {
+    if (!std::filesystem::is_regular_file(path)) {
+      problems.push_back(path + ": expected a Catalyst script, found no such file");
+    } else if (std::string problem = syntax_problem(path); !problem.empty()) {
+      problems.push_back(std::move(problem));
+    } else if (vtkCPPythonPipeline::DetectScriptVersion(path.c_str()) != 2) {
+      problems.push_back(path + ":1: expected the line `# script-version: 2.0` of a Catalyst script");
+    }
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+}
+
+std::string json_string(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') {
+      result += '\\';
+      result += c;
+    } else if (static_cast<unsigned char>(c) < 0x20) {
+      constexpr char digits[] = "0123456789abcdef";
+      result += "\\u00";
+      result += digits[c >> 4];
+      result += digits[c & 15];
+    } else {
+      result += c;
+    }
+  }
+  return result + '"';
+}
+
+std::string frame_json(const PipelineSettings& s, std::span<const Channel> channels) {
+  std::ostringstream out;
+  out << "{\"run_folder\":" << json_string(s.run_folder) << ",\"scene_title\":" << json_string(s.scene_title)
+      << ",\"dimension\":" << s.dimension << ",\"image_size\":[" << s.image_width << ',' << s.image_height << ']'
+      << ",\"view_center\":[" << number(s.view_center[0]) << ',' << number(s.view_center[1]) << ','
+      << number(s.view_center[2]) << "],\"view_size\":" << number(s.view_size) << ",\"time_end\":" << number(s.time_end)
+      << ",\"particle_radius\":" << number(s.particle_radius)
+      << ",\"radius_per_smoothing_length\":" << number(s.radius_per_smoothing_length) << ",\"ranges\":{";
+  const char* separator = "";
+  for (const auto& [field, range] : s.ranges) {
+    out << separator << json_string(field) << ":[" << number(range.min) << ',' << number(range.max) << ']';
+    separator = ",";
+  }
+  out << "},\"units\":{";
+  std::map<std::string, std::string> units;
+  for (const Channel& channel : channels)
+    for (const FieldView& field : channel.fields) units[field.name] = field.unit;
+  separator = "";
+  for (const auto& [field, unit] : units) {
+    out << separator << json_string(field) << ':' << json_string(unit);
+    separator = ",";
+  }
+  out << "}}";
+  return out.str();
+}
+
+}  // namespace ejecta

@@ -1,0 +1,41 @@
+#pragma once
+/// Which scripts draw a run, what they are told, and whether they can be run at all.
+#include <array>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "particles/channel.hpp"
+#include "scene/scene.hpp"
+
+namespace ejecta {
+
+/// Everything a pipeline may want to know, fixed for a run so that frames do not flicker.
+struct PipelineSettings {
+  std::string run_folder;  ///< images go to <run_folder>/images
+  std::string scene_title;
+  int dimension = 3;
+  int image_width = 960, image_height = 720;  ///< pixels, for every view
+  std::array<double, 3> view_center{};        ///< m
+  double view_size = 1;                       ///< m, visible width
+  double time_end = 0;                        ///< s, chooses the unit of the time stamp
+  double particle_radius = 0;                 ///< m, of a drawn sphere where there is no smoothing length
+  double radius_per_smoothing_length = 0.45;  ///< of a drawn sphere
+  std::map<std::string, ColourRange> ranges;  ///< field -> fixed colour range [SI]
+};
+
+/// Absolute paths of the scripts drawn by default: slice, cutaway and, where fragments are followed, fragments.
+std::vector<std::string> default_pipelines(bool fragments);
+
+/// Compiles each script without running it. Throws InputError naming file and line of every script that is missing or
+/// has a syntax error.
+void check_pipeline_scripts(const std::vector<std::string>& paths);
+
+/// The settings, the step and the units of all fields as one JSON text, which the scripts read.
+std::string frame_json(const PipelineSettings& settings, std::span<const Channel> channels);
+
+/// `text` between quotes, escaped for JSON (and for Python, whose strings have the same escapes).
+std::string json_string(std::string_view text);
+
+}  // namespace ejecta

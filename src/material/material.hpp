@@ -1,0 +1,30 @@
+#pragma once
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "material/damage.hpp"
+#include "material/elastic.hpp"
+#include "material/eos.hpp"
+#include "material/porosity.hpp"
+#include "material/strength.hpp"
+
+namespace ejecta {
+
+/// Everything known of one material. What is absent costs nothing: stages and columns exist only for what is set.
+struct Material {
+  std::string name;
+  Eos eos;
+  std::optional<Elastic> elastic;                                ///< absent: a fluid
+  std::optional<Strength> strength;                              ///< absent in a solid: elastic without limit
+  double melt_energy = std::numeric_limits<double>::infinity();  ///< J/kg
+  std::optional<GradyKipp> damage;
+  std::optional<Porosity> porosity;
+
+  /// Density of the unstressed, uncrushed body [kg/m^3].
+  double bulk_density() const { return reference_density(eos) / (porosity ? porosity->initial_distension() : 1.0); }
+  /// Whether it carries deviatoric stress.
+  bool solid() const { return elastic.has_value(); }
+};
+
+}  // namespace ejecta

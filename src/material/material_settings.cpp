@@ -1,0 +1,224 @@
+#include "material/material_settings.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <numbers>
+
+#include "scene/units.hpp"
+
+namespace ejecta {
+
+namespace {
+
+template <class Model>
+struct Named {
+  std::string_view name;
+  Model initial;
+};
+const std::array<Named<Eos>, 2> eos_models{{{"ideal_gas", IdealGas{}}, {"tillotson", Tillotson{}}}};
+const std::array<Named<Strength>, 4> strength_models{
+    {{"von_mises", VonMises{}}, {"drucker_prager", DruckerPrager{}}, {"lundborg", Lundborg{}}, {"collins", Collins{}}}};
+const std::vector<std::string> damage_models{"none", "grady_kipp"};
+const std::vector<std::string> porosity_models{"none", "quadratic", "two_power"};
+
+template <std::size_t N, class Model>
+std::vector<std::string> words(const std::array<Named<Model>, N>& models, bool with_none) {
+  std::vector<std::string> names;
+  if (with_none) names.emplace_back("none");
+  for (const auto& model : models) names.emplace_back(model.name);
+  return names;
+}
+
+template <std::size_t N, class Model>
+void start(Model& model, const std::string& name, const std::array<Named<Model>, N>& models) {
+  for (const auto& candidate : models)
+    if (candidate.name == name) model = candidate.initial;
+}
+
+/// A constant without a default.
+void constant(Describer& d, std::string key, double& value, std::string unit, Limits limits, std::string doc) {
+  d.number(std::move(key), value, std::move(unit), limits, std::move(doc)).required = true;
+}
+
+void describe(Describer& d, IdealGas& g) {
+  constant(d, "density", g.rho0, "kg/m^3", positive, "of a body whose density the scene does not give");
+  constant(d, "gamma", g.gamma, "1", {.min = 1, .open_min = true}, "ratio of specific heats");
+}
+
+void describe(Describer& d, Tillotson& t) {
+  constant(d, "density", t.rho0, "kg/m^3", positive, "reference density, without pores");
+  constant(d, "a", t.a, "1", positive, "thermal coefficient of the vapour");
+  constant(d, "b", t.b, "1", non_negative, "further thermal coefficient of the condensed state");
+  constant(d, "A", t.A, "Pa", positive, "bulk modulus");
+  constant(d, "B", t.B, "Pa", non_negative, "quadratic companion of A");
+  constant(d, "E0", t.E0, "J/kg", positive, "energy at which b has halved, at reference density");
+  constant(d, "E_iv", t.E_iv, "J/kg", positive, "incipient vaporisation");
+  constant(d, "E_cv", t.E_cv, "J/kg", positive, "complete vaporisation");
+  constant(d, "alpha", t.alpha, "1", positive, "Gaussian decay in expansion");
+  constant(d, "beta", t.beta, "1", positive, "exponential decay in expansion");
+}
+
+constexpr Limits below_right_angle{.min = 0, .max = std::numbers::pi / 2};
+
+void describe(Describer& d, VonMises& m) {
+  constant(d, "yield_stress", m.yield_stress, "Pa", positive, "uniaxial, cold and intact");
+}
+void describe(Describer& d, DruckerPrager& m) {
+  constant(d, "cohesion", m.cohesion, "Pa", non_negative, "of the intact material; damage removes it");
+  constant(d, "friction_angle", m.friction_angle, "rad", below_right_angle, "stays when damaged");
+}
+void describe(Describer& d, Lundborg& m) {
+  constant(d, "cohesion", m.cohesion, "Pa", non_negative, "shear strength at zero pressure");
+  constant(d, "friction", m.friction, "1", non_negative, "coefficient of internal friction");
+  constant(d, "limit", m.limit, "Pa", positive, "shear strength at infinite pressure");
+}
+void describe(Describer& d, Collins& m) {
+  describe(d, m.intact);
+  constant(d, "damaged_cohesion", m.damaged_cohesion, "Pa", non_negative, "of broken rock");
+  constant(d, "damaged_friction", m.damaged_friction, "1", non_negative, "coefficient of friction of broken rock");
+}
+
+void describe(Describer& d, GradyKipp& m) {
+  constant(d, "weibull_m", m.weibull_m, "1", positive, "exponent of the flaw distribution k eps^m");
+  constant(d, "weibull_k", m.weibull_k, "1/m^3", positive, "flaws per volume with strain below 1; per area in 2D");
+  d.number("crack_speed_factor", m.crack_speed_factor, "1", {.min = 0, .max = 1, .open_min = true},
+           "speed of a crack / longitudinal wave speed");
+}
+
+void describe(Describer& d, PorositySettings& p, bool two_power) {
+  constant(d, "initial_distension", p.initial_distension, "1", at_least(1), "grain density / bulk density");
+  constant(d, "elastic_pressure", p.elastic_pressure, "Pa", non_negative, "P_e, where crushing begins");
+  constant(d, "solid_pressure", p.solid_pressure, "Pa", positive, "P_s, where no pores are left");
+  if (two_power) {
+    constant(d, "transition_pressure", p.transition_pressure, "Pa", positive, "P_t, where the first power law ends");
+    constant(d, "reference_distension", p.reference_distension, "1", at_least(1),
+             "alpha_e of the fitted curve, which is scaled to the initial distension");
+    constant(d, "transition_distension", p.transition_distension, "1", at_least(1), "alpha_t of the fitted curve");
+    d.integer("n1", p.n1, between(1, 100), "exponent below P_t").required = true;
+    d.integer("n2", p.n2, between(1, 100), "exponent of the whole").required = true;
+  }
+  d.number("sound_speed", p.sound_speed, "m/s", non_negative, "of the uncrushed body; 0: that of the solid");
+  d.flag("stress_factor", p.stress_factor, "deviatoric stress follows the strain of the solid, not of the pores");
+  d.flag("crush_damage", p.crush_damage, "crushing pores damages the material");
+}
+
+}  // namespace
+
+void choose_models(MaterialSettings& settings, Document& document, Problems& problems) {
+  const auto choose = [&](const std::string& section, std::string& model, const std::vector<std::string>& known) {
+    const std::string path = section + ".model";
+    const bool written = document.tables.contains(section) || !document.children(section).empty();
+    if (!written && !model.empty()) return;
+    const auto item = document.items.find(path);
+    const auto* name = item == document.items.end() ? nullptr : std::get_if<std::string>(&item->second.literal.value);
+    if (name && std::find(known.begin(), known.end(), *name) != known.end()) {
+      model = *name;
+      return;
+    }
+    problems.add(document.origin(path), path,
+                 fmt::format("expected one of {}, got {}", fmt::join(known, ", "),
+                             item == document.items.end() ? "nothing" : to_text(item->second.literal)));
+    std::erase_if(document.items, [&](const auto& entry) { return entry.first.starts_with(section + "."); });
+  };
+  choose("eos", settings.eos_model, words(eos_models, false));
+  choose("strength", settings.strength_model, words(strength_models, true));
+  choose("damage", settings.damage_model, damage_models);
+  choose("porosity", settings.porosity_model, porosity_models);
+  start(settings.eos, settings.eos_model, eos_models);
+  start(settings.strength, settings.strength_model, strength_models);
+  settings.has_elastic = document.tables.contains("elastic") || !document.children("elastic").empty();
+}
+
+void describe(Describer& d, MaterialSettings& s) {
+  const auto model = [&](std::string& name, const std::vector<std::string>& known, std::string doc) {
+    d.word("model", name, known, std::move(doc)).required = name != "none";
+  };
+  d.section("eos", fmt::format("equation of state: {}", s.eos_model));
+  model(s.eos_model, words(eos_models, false), "the constants depend on it");
+  if (!s.eos_model.empty()) std::visit([&](auto& eos) { describe(d, eos); }, s.eos);
+  if (s.has_elastic) {
+    d.section("elastic", "moduli of the solid; without this section the material is a fluid");
+    constant(d, "shear_modulus", s.elastic.shear_modulus, "Pa", positive, "without pores and damage");
+    constant(d, "bulk_modulus", s.elastic.bulk_modulus, "Pa", positive, "without pores and damage");
+  }
+  d.section("strength", fmt::format("limit of the deviatoric stress: {}", s.strength_model));
+  model(s.strength_model, words(strength_models, true), "none: elastic without limit");
+  if (s.strength_model != "none") {
+    std::visit([&](auto& strength) { describe(d, strength); }, s.strength);
+    d.number("melt_energy", s.melt_energy, "J/kg", positive, "at which no strength is left; else it never softens");
+  }
+  d.section("damage", fmt::format("brittle fracture: {}", s.damage_model));
+  model(s.damage_model, damage_models, "none: never breaks");
+  if (s.damage_model != "none") describe(d, s.damage);
+  d.section("porosity", fmt::format("pores below the resolution (P-alpha): {}", s.porosity_model));
+  model(s.porosity_model, porosity_models, "form of the crush curve; none: no pores");
+  if (s.porosity_model != "none") describe(d, s.porosity, s.porosity_model == "two_power");
+}
+
+void check_settings(const MaterialSettings& s, const Document& document, Problems& problems) {
+  const auto report = [&](const std::string& path, const std::string& message) {
+    if (!problems.has(path)) problems.add(document.origin(path), path, message);
+  };
+  const bool gas = std::holds_alternative<IdealGas>(s.eos);
+  if (const auto* t = std::get_if<Tillotson>(&s.eos); t && t->E_cv != 0 && t->E_cv <= t->E_iv)
+    report("eos.E_cv", fmt::format("expected more than E_iv ({})", format_quantity(t->E_iv, "J/kg")));
+  if (gas && s.has_elastic) report("elastic", "an ideal gas has no moduli");
+  if (gas && s.porosity_model != "none") report("porosity.model", "an ideal gas has no pores");
+  if (!s.has_elastic && s.strength_model != "none") report("strength.model", "needs section [elastic]");
+  if (!s.has_elastic && s.damage_model != "none") report("damage.model", "needs section [elastic]");
+  const auto check_limit = [&](const Lundborg& m) {
+    if (m.limit != 0 && m.limit <= m.cohesion)
+      report("strength.limit", fmt::format("expected more than the cohesion ({})", format_quantity(m.cohesion, "Pa")));
+  };
+  if (const auto* m = std::get_if<Lundborg>(&s.strength)) check_limit(*m);
+  if (const auto* m = std::get_if<Collins>(&s.strength)) check_limit(m->intact);
+  const PorositySettings& p = s.porosity;  // comparisons with values that are not set are false
+  const std::string elastic = format_quantity(p.elastic_pressure, "Pa"),
+                    solid = format_quantity(p.solid_pressure, "Pa");
+  if (p.solid_pressure <= p.elastic_pressure)
+    report("porosity.solid_pressure", fmt::format("expected more than elastic_pressure ({})", elastic));
+  else if (p.transition_pressure <= p.elastic_pressure || p.transition_pressure > p.solid_pressure)
+    report("porosity.transition_pressure",
+           fmt::format("expected a pressure between elastic_pressure ({}) and solid_pressure ({})", elastic, solid));
+  if (p.transition_distension >= p.reference_distension)
+    report("porosity.transition_distension",
+           fmt::format("expected less than reference_distension ({})", format_quantity(p.reference_distension, "1")));
+}
+
+Material make_material(const std::string& name, const MaterialSettings& s) {
+  Material material;
+  material.name = name;
+  material.eos = s.eos;
+  if (s.has_elastic) material.elastic = s.elastic;
+  if (s.strength_model != "none") material.strength = s.strength;
+  if (is_set(s.melt_energy)) material.melt_energy = s.melt_energy;
+  if (s.damage_model != "none") material.damage = s.damage;
+  if (s.porosity_model == "none") return material;
+  const PorositySettings& p = s.porosity;
+  const CrushCurve curve =
+      s.porosity_model == "quadratic"
+          ? CrushCurve::quadratic(p.initial_distension, p.elastic_pressure, p.solid_pressure)
+          : CrushCurve::two_power(p.initial_distension, p.reference_distension, p.transition_distension,
+                                  p.elastic_pressure, p.transition_pressure, p.solid_pressure, p.n1, p.n2);
+  material.porosity = Porosity{curve, p.sound_speed, p.stress_factor, p.crush_damage};
+  return material;
+}
+
+std::vector<MaterialSettings> every_model() {
+  std::vector<MaterialSettings> all;
+  for (std::size_t k = 0; k < strength_models.size(); ++k) {
+    MaterialSettings s;
+    s.eos_model = eos_models[k % eos_models.size()].name;
+    s.eos = eos_models[k % eos_models.size()].initial;
+    s.has_elastic = true;
+    s.strength_model = strength_models[k].name;
+    s.strength = strength_models[k].initial;
+    s.damage_model = "grady_kipp";
+    s.porosity_model = porosity_models[1 + k % 2];
+    all.push_back(s);
+  }
+  return all;
+}
+
+}  // namespace ejecta

@@ -1,0 +1,89 @@
+#pragma once
+/// How much deviatoric stress a material bears. One convention for all models: yield() is a limit on the von Mises
+/// equivalent stress sqrt(3 J2). The friction laws are published as limits on the shear stress sqrt(J2) and keep their
+/// published parameters; they are converted here by sqrt(3), once. Pressures are those of the solid (alpha P in a
+/// porous material), compression positive. All values are cold: multiply by melt_factor().
+///
+/// intact_fraction(D) scales the deviator where forces are computed: 1 - D for models that know nothing of damaged
+/// material (Benz & Asphaug 1994, Icarus 107, 98), 1 for those whose damaged branch is itself a friction law.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <variant>
+
+#include "material/deviator.hpp"
+
+namespace ejecta {
+
+/// Constant yield stress (von Mises).
+struct VonMises {
+  double yield_stress;  ///< limit of sqrt(3 J2) [Pa]
+
+  double yield(double, double) const { return yield_stress; }
+  double intact_fraction(double damage) const { return 1 - damage; }
+};
+
+/// Cone through the outer (compressive) edges of the Mohr-Coulomb pyramid (Drucker & Prager 1952):
+/// sqrt(J2) = [6 c cos(phi) + 6 P sin(phi)] / [sqrt(3) (3 - sin(phi))], >= 0. Damage removes the cohesion, not the
+/// friction.
+struct DruckerPrager {
+  double cohesion;        ///< c [Pa]
+  double friction_angle;  ///< phi [rad]
+
+  double yield(double pressure, double damage) const {
+    const double sine = std::sin(friction_angle);
+    return std::max(0.0, 6 * (cohesion * (1 - damage) * std::cos(friction_angle) + pressure * sine) / (3 - sine));
+  }
+  double intact_fraction(double) const { return 1; }
+};
+
+/// Lundborg (1968): sqrt(J2) = c + mu P / (1 + mu P/(Y_max - c)); the cohesion alone in tension. Intact rock only.
+struct Lundborg {
+  double cohesion;  ///< c [Pa]
+  double friction;  ///< coefficient of internal friction mu
+  double limit;     ///< Y_max, the shear strength at infinite pressure, > c [Pa]
+
+  double yield(double pressure, double) const {
+    const double load = friction * std::max(pressure, 0.0);
+    return std::numbers::sqrt3 * (cohesion + load / (1 + load / (limit - cohesion)));
+  }
+  double intact_fraction(double damage) const { return 1 - damage; }
+};
+
+/// Collins, Melosh & Ivanov (2004, Meteorit. Planet. Sci. 39, 217): Y = (1 - D) Y_i + D Y_d with Lundborg's Y_i for
+/// intact rock and dry friction Y_d = c_d + mu_d P for broken rock, 0 <= Y_d <= Y_i.
+struct Collins {
+  Lundborg intact;
+  double damaged_cohesion;  ///< c_d [Pa]
+  double damaged_friction;  ///< mu_d; in tension the broken rock's strength falls as c_d + P
+
+  double yield(double pressure, double damage) const {
+    const double whole = intact.yield(pressure, 0);
+    const double friction = pressure > 0 ? damaged_friction : 1;
+    const double broken = std::numbers::sqrt3 * (damaged_cohesion + friction * pressure);
+    return (1 - damage) * whole + damage * std::clamp(broken, 0.0, whole);
+  }
+  double intact_fraction(double) const { return 1; }
+};
+
+using Strength = std::variant<VonMises, DruckerPrager, Lundborg, Collins>;
+
+/// Fraction of the cold strength left at specific energy e: max(0, 1 - e/e_melt) (Benz & Asphaug 1999, Icarus 142, 5).
+/// An infinite melt energy means the material never softens.
+inline double melt_factor(double e, double melt_energy) { return std::clamp(1 - e / melt_energy, 0.0, 1.0); }
+
+struct RadialReturn {
+  double scale;           ///< what the deviator is multiplied by, 0 to 1
+  double plastic_strain;  ///< increment of equivalent plastic strain, >= 0
+};
+
+/// Brings a trial deviator [Pa] back to the yield surface sqrt(3 J2) = yield along its own direction (Wilkins 1964):
+/// scale = yield/sqrt(3 J2), d(eps_p) = (sqrt(3 J2) - yield)/(3 G). The plastic work is yield d(eps_p) per volume.
+template <int Dim>
+RadialReturn radial_return(const Deviator<Dim>& trial, double yield, double shear_modulus) {
+  const double equivalent = equivalent_stress<Dim>(trial);
+  if (equivalent <= yield) return {1, 0};
+  return {yield / equivalent, (equivalent - yield) / (3 * shear_modulus)};
+}
+
+}  // namespace ejecta

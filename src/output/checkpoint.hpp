@@ -1,0 +1,59 @@
+#pragma once
+/// Checkpoints and snapshots: named columns of particles, a clock and the scene as text, in one HDF5 file that appears
+/// only when it is complete.
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace ejecta {
+
+template <class T>
+struct NamedColumn {
+  std::string name, unit;  ///< unit: SI symbol, "1" if dimensionless
+  std::span<const T> values;
+};
+
+/// What is to be written. All columns have the same length; nothing is copied.
+struct CheckpointView {
+  double time = 0, dt = 0;  ///< s
+  std::int64_t step = 0;
+  std::map<std::string, double> scalars;  ///< whatever else the run must remember
+  std::string scene;                      ///< text of resolved.toml
+  std::vector<NamedColumn<double>> columns;
+  std::vector<NamedColumn<std::int32_t>> labels;
+};
+
+/// What was read back.
+struct Checkpoint {
+  std::filesystem::path file;
+  double time = 0, dt = 0;
+  std::int64_t step = 0;
+  std::size_t particles = 0;
+  std::map<std::string, double> scalars;
+  std::string scene;
+  std::map<std::string, std::vector<double>> columns;
+  std::map<std::string, std::vector<std::int32_t>> labels;
+
+  /// Throw InputError, naming the file, if the checkpoint does not hold what is asked for.
+  const std::vector<double>& column(const std::string& name) const;
+  const std::vector<std::int32_t>& label(const std::string& name) const;
+  double scalar(const std::string& name) const;
+};
+
+/// Writes one file atomically. Throws InputError if it cannot be written.
+void write_checkpoint(const std::filesystem::path& file, const CheckpointView& view);
+
+/// Writes folder/checkpoint_<step>.h5 (the folder is made) and removes all but the newest two. Returns its path.
+std::filesystem::path write_rotating_checkpoint(const std::filesystem::path& folder, const CheckpointView& view);
+
+/// The checkpoint of the highest step in the folder, if there is one.
+std::optional<std::filesystem::path> latest_checkpoint(const std::filesystem::path& folder);
+
+/// Throws InputError if the file is missing, truncated, of another format or its columns differ in length.
+Checkpoint read_checkpoint(const std::filesystem::path& file);
+
+}  // namespace ejecta

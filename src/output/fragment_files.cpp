@@ -1,0 +1,102 @@
+#include "output/fragment_files.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+namespace ejecta {
+
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+double share(double mass, const FragmentContext& context) { return mass / context.target_mass; }
+
+const std::vector<CsvColumn> largest_columns{
+    {"time", "s"}, {"largest fragment mass fraction", "1"}, {"fragments", "1"}, {"dust mass fraction", "1"}};
+
+CsvWriter open(std::filesystem::path file, std::span<const CsvColumn> columns, std::optional<double> resume_at) {
+  return resume_at ? CsvWriter(std::move(file), columns, *resume_at) : CsvWriter(std::move(file), columns);
+}
+
+void add_vector(std::vector<CsvCell>& row, const Vec<3>& v) { row.insert(row.end(), {v[0], v[1], v[2]}); }
+
+void add_labels(std::vector<CsvCell>& row, const std::vector<double>& by_label, std::size_t labels) {
+  for (std::size_t k = 0; k < labels; ++k) row.emplace_back(k < by_label.size() ? by_label[k] : 0.0);
+}
+
+}  // namespace
+
+void write_fragments(const std::filesystem::path& file, const FragmentTable& table, const FragmentContext& context) {
+  const std::string kg = context.dimension == 2 ? "kg/m" : "kg";
+  std::vector<CsvColumn> columns{{"number", "1"}, {"particles", "1"}, {"mass", kg}, {"mass fraction", "1"}};
+  for (const std::string& body : context.bodies) columns.push_back({"mass of " + body, kg});
+  for (const std::string& material : context.materials) columns.push_back({"mass of material " + material, kg});
+  for (const auto& [name, unit] : {std::pair{"centre", "m"}, {"velocity", "m/s"}, {"spin", "rad/s"}})
+    for (const char* axis : {" x", " y", " z"}) columns.push_back({std::string(name) + axis, unit});
+  for (const char* axis : {"a", "b", "c"}) columns.push_back({std::string("semi-axis ") + axis, "m"});
+  columns.insert(columns.end(), {{"mean damage", "1"}, {"mean distension", "1"}});
+
+  CsvWriter writer(file, columns);
+  for (const Fragment& f : table.fragments) {
+    std::vector<CsvCell> row{std::int64_t{f.number}, static_cast<std::int64_t>(f.carried.particles), f.carried.mass,
+                             share(f.carried.mass, context)};
+    add_labels(row, f.mass_by_body, context.bodies.size());
+    add_labels(row, f.mass_by_material, context.materials.size());
+    for (const Vec<3>* v : {&f.centre, &f.velocity, &f.spin, &f.semi_axes}) add_vector(row, *v);
+    row.insert(row.end(), {f.mean_damage, f.mean_distension});
+    writer.row(row);
+  }
+  std::vector<CsvCell> dust(columns.size(), none);
+  dust[0] = std::int64_t{0};
+  dust[1] = static_cast<std::int64_t>(table.dust.particles);
+  dust[2] = table.dust.mass;
+  dust[3] = share(table.dust.mass, context);
+  const std::size_t velocity = 4 + context.bodies.size() + context.materials.size() + 3;
+  if (table.dust.mass > 0)
+    for (int a = 0; a < 3; ++a) dust[velocity + static_cast<std::size_t>(a)] = table.dust.momentum[a] / table.dust.mass;
+  writer.row(dust);
+}
+
+void write_fragment_distribution(const std::filesystem::path& file, const FragmentTable& table,
+                                 const FragmentContext& context) {
+  std::vector<double> mass;
+  for (const Fragment& f : table.fragments) mass.push_back(f.carried.mass);
+  std::sort(mass.begin(), mass.end(), std::greater<>());
+  std::vector<std::vector<CsvCell>> rows;
+  for (std::size_t k = 0; k < mass.size(); ++k)
+    if (k + 1 == mass.size() || mass[k + 1] < mass[k])  // equal masses share the row that counts them all
+      rows.push_back({mass[k], share(mass[k], context), static_cast<std::int64_t>(k + 1)});
+  write_csv(file,
+            std::vector<CsvColumn>{{"mass", context.dimension == 2 ? "kg/m" : "kg"},
+                                   {"mass fraction", "1"},
+                                   {"fragments at least as heavy", "1"}},
+            rows);
+}
+
+LargestFragmentHistory::LargestFragmentHistory(std::filesystem::path file, std::optional<double> resume_at)
+    : writer_(open(std::move(file), largest_columns, resume_at)) {}
+
+void LargestFragmentHistory::write(double time, const FragmentTable& table, const FragmentContext& context) {
+  const double largest = table.fragments.empty() ? 0 : table.fragments[0].carried.mass;
+  writer_.row(std::vector<CsvCell>{time, share(largest, context), static_cast<std::int64_t>(table.fragments.size()),
+                                   share(table.dust.mass, context)});
+}
+
+void write_compaction(const std::filesystem::path& file, std::span<const double> pressure,
+                      std::span<const double> distension, std::span<const std::int32_t> loading) {
+  std::vector<std::vector<CsvCell>> rows;
+  for (std::size_t i = 0; i < pressure.size(); ++i)
+    rows.push_back({pressure[i], distension[i], std::int64_t{loading[i]}});
+  write_csv(file, std::vector<CsvColumn>{{"pressure", "Pa"}, {"distension", "1"}, {"loading", "1"}}, rows);
+}
+
+void write_crush_curve(const std::filesystem::path& file, std::span<const double> pressure,
+                       std::span<const double> distension) {
+  std::vector<std::vector<CsvCell>> rows;
+  for (std::size_t i = 0; i < pressure.size(); ++i) rows.push_back({pressure[i], distension[i]});
+  write_csv(file, std::vector<CsvColumn>{{"pressure", "Pa"}, {"distension", "1"}}, rows);
+}
+
+}  // namespace ejecta

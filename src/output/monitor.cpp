@@ -1,0 +1,146 @@
+#include "output/monitor.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+
+#include "output/atomic_file.hpp"
+#include "output/json.hpp"
+
+namespace ejecta {
+
+namespace {
+
+constexpr std::size_t most_points = 300;
+constexpr std::array state_names{"running", "finished", "stopped", "failed"};
+
+/// Enough digits for a plot, and few bytes.
+std::string short_json(double value) { return std::isfinite(value) ? fmt::format("{:.7g}", value) : "null"; }
+
+template <class Items, class Text>
+std::string json_list(const Items& items, Text&& text) {
+  std::string list;
+  for (const auto& item : items) list += (list.empty() ? "" : ",") + text(item);
+  return '[' + list + ']';
+}
+
+std::string series_json(const MonitorSeries& s) {
+  const std::vector<std::size_t> rows = telling_rows(s.values, most_points);
+  return fmt::format(R"({{"name":{},"unit":{},"time":{},"values":{}}})", to_json(s.name), to_json(s.unit),
+                     json_list(rows, [&](std::size_t i) { return short_json(s.time[i]); }),
+                     json_list(rows, [&](std::size_t i) { return short_json(s.values[i]); }));
+}
+
+std::string view_json(const MonitorView& view) {
+  const auto frame = [](const MonitorFrame& f) {
+    return fmt::format("[{},{},{}]", to_json("../" + f.file), short_json(f.time), f.step);
+  };
+  return fmt::format("{{\"name\":{},\"latest\":{},\"frames\":{}}}", to_json(view.name),
+                     view.frames.empty() ? "null" : to_json("../" + view.frames.back().file),
+                     json_list(view.frames, frame));
+}
+
+/// Points (m/M, N) where N fragments are at least as heavy as m; of many, ranks that are evenly spaced on a log axis.
+std::string distribution_json(const std::vector<double>& masses) {
+  std::vector<std::size_t> ranks;
+  const double n = static_cast<double>(masses.size());
+  for (std::size_t k = 0; k < std::min(masses.size(), most_points); ++k) {
+    const double exponent = static_cast<double>(k) / static_cast<double>(most_points - 1);
+    const std::size_t rank =
+        masses.size() <= most_points ? k + 1 : static_cast<std::size_t>(std::lround(std::pow(n, exponent)));
+    if (ranks.empty() || rank > ranks.back()) ranks.push_back(rank);
+  }
+  return json_list(ranks, [&](std::size_t rank) { return fmt::format("[{},{}]", short_json(masses[rank - 1]), rank); });
+}
+
+}  // namespace
+
+void MonitorStatus::record(std::string_view name, std::string_view unit, double at, double value) {
+  auto series = std::find_if(history.begin(), history.end(), [&](const MonitorSeries& s) { return s.name == name; });
+  if (series == history.end())
+    series = history.insert(series, MonitorSeries{std::string(name), std::string(unit), {}, {}});
+  series->time.push_back(at);
+  series->values.push_back(value);
+}
+
+std::vector<MonitorView> read_views(const std::filesystem::path& run_folder) {
+  std::vector<MonitorView> views;
+  std::ifstream in(run_folder / "images" / "data.csv");
+  std::string time, step, name, file;
+  std::getline(in, file);  // the header
+  while (std::getline(in, time, ',') && std::getline(in, step, ',') && std::getline(in, name, ',') &&
+         std::getline(in, file)) {
+    auto view = std::find_if(views.begin(), views.end(), [&](const MonitorView& v) { return v.name == name; });
+    if (view == views.end()) view = views.insert(view, MonitorView{name, {}});
+    view->frames.push_back({"images/" + file, std::strtod(time.c_str(), nullptr), std::atoll(step.c_str())});
+  }
+  return views;
+}
+
+std::vector<std::size_t> telling_rows(const std::vector<double>& values, std::size_t most) {
+  std::vector<std::size_t> rows;
+  const std::size_t n = values.size();
+  if (n <= most) {
+    for (std::size_t i = 0; i < n; ++i) rows.push_back(i);
+    return rows;
+  }
+  rows.push_back(0);
+  const std::size_t blocks = (most - 2) / 2;
+  for (std::size_t b = 0; b < blocks; ++b) {
+    const auto begin = values.begin() + static_cast<std::ptrdiff_t>(1 + b * (n - 2) / blocks);
+    const auto end = values.begin() + static_cast<std::ptrdiff_t>(1 + (b + 1) * (n - 2) / blocks);
+    const auto [least, greatest] = std::minmax_element(begin, end);
+    rows.push_back(static_cast<std::size_t>(std::min(least, greatest) - values.begin()));
+    if (least != greatest) rows.push_back(static_cast<std::size_t>(std::max(least, greatest) - values.begin()));
+  }
+  rows.push_back(n - 1);
+  return rows;
+}
+
+std::string monitor_json(const MonitorStatus& s, std::int64_t updated) {
+  std::string text;
+  const auto add = [&](const char* key, const std::string& value) {
+    text += fmt::format("{}\"{}\": {}", text.empty() ? "{\n" : ",\n", key, value);
+  };
+  add("scene", to_json(s.scene));
+  add("state", to_json(state_names[static_cast<std::size_t>(s.state)]));
+  add("updated", to_json(updated));
+  add("step", to_json(s.step));
+  add("time_s", to_json(s.time));
+  add("time_end_s", to_json(s.time_end));
+  add("dt_s", to_json(s.dt));
+  add("limited_by", to_json(s.limited_by));
+  add("particles", to_json(s.particles));
+  add("particle_steps_per_s", to_json(s.particle_steps_per_s));
+  add("eta_s", to_json(s.eta_s));
+  add("wall_s", to_json(s.wall_s));
+  add("energy_error_rel", to_json(s.energy_error));
+  add("warnings", json_list(s.warnings, [](const std::string& w) { return to_json(w); }));
+  add("views", json_list(s.views, view_json));
+  add("history", json_list(s.history, series_json));
+  add("smallest_fragment", to_json(s.smallest_fragment));
+  add("fragments", distribution_json(s.fragment_masses));
+  return text + "\n}\n";
+}
+
+Monitor::Monitor(const std::filesystem::path& run_folder, std::chrono::milliseconds interval)
+    : folder_(run_folder / "monitor"), interval_(interval) {
+  std::error_code reported_by_the_write;
+  std::filesystem::create_directories(folder_, reported_by_the_write);
+  write_atomically(folder_ / "index.html", monitor_page());
+}
+
+bool Monitor::due() const { return !written_ || std::chrono::steady_clock::now() - *written_ >= interval_; }
+
+void Monitor::update(const MonitorStatus& status, bool force) {
+  if (!force && !due()) return;
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  const std::string json = monitor_json(status, std::chrono::duration_cast<std::chrono::seconds>(now).count());
+  write_atomically(folder_ / "status.json", json);
+  write_atomically(folder_ / "status.js", "ejecta_status(" + json + ");\n");
+  written_ = std::chrono::steady_clock::now();
+}
+
+}  // namespace ejecta

@@ -1,0 +1,87 @@
+#pragma once
+/// A page to watch a run by: static files in `monitor/` of the run folder, which any browser opens without a server.
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ejecta {
+
+enum class RunState { running, finished, stopped, failed };
+
+/// Something followed in time. Every series has times of its own, since not all are evaluated equally often.
+struct MonitorSeries {
+  std::string name, unit;            ///< as in history.csv; the page draws kinetic, internal and total energy together
+  std::vector<double> time, values;  ///< s, SI
+};
+
+struct MonitorFrame {
+  std::string file;  ///< relative to the run folder, such as images/slice_000120.png
+  double time = 0;   ///< s
+  std::int64_t step = 0;
+};
+
+/// One view of the in-situ pipelines with all its images so far, the latest last.
+struct MonitorView {
+  std::string name;
+  std::vector<MonitorFrame> frames;
+};
+
+/// All the page shows. Values that do not apply stay empty.
+struct MonitorStatus {
+  std::string scene;
+  RunState state = RunState::running;
+  std::int64_t step = 0;
+  double time = 0, time_end = 0, dt = 0;  ///< s
+  std::string limited_by;                 ///< winning vote of the time step
+  std::int64_t particles = 0;
+  std::optional<double> particle_steps_per_s;
+  std::optional<double> eta_s;              ///< wall time still needed
+  double wall_s = 0;                        ///< wall time used
+  std::optional<double> energy_error;       ///< relative, 1
+  std::vector<MonitorView> views;           ///< see read_views()
+  std::vector<MonitorSeries> history;       ///< whole runs are welcome: the page gets at most 300 points of each
+  std::vector<double> fragment_masses;      ///< m / target mass, heaviest first, without the dust
+  std::optional<double> smallest_fragment;  ///< m / target mass of the lightest fragment that is counted
+  std::vector<std::string> warnings;
+
+  /// Adds a point [s, SI] to the series of that name, which is made if there is none.
+  void record(std::string_view name, std::string_view unit, double at, double value);
+};
+
+/// The views listed in images/data.csv of a run folder, in the order of their first image; empty if there is no list.
+std::vector<MonitorView> read_views(const std::filesystem::path& run_folder);
+
+/// Rows of a long series that keep its shape: the first, the last, and least and greatest value of equal blocks
+/// between. All rows if there are no more than `most` (at least 4).
+std::vector<std::size_t> telling_rows(const std::vector<double>& values, std::size_t most);
+
+/// One JSON object. `updated`: seconds since 1970, by which the page sees that a run has fallen silent.
+std::string monitor_json(const MonitorStatus& status, std::int64_t updated);
+
+/// Text of the page.
+std::string_view monitor_page();
+
+/// Keeps the files of `monitor/`: index.html, written once; status.json; status.js, the same for the page, which may
+/// load scripts but not data when it is opened from disk.
+class Monitor {
+ public:
+  /// Makes the folder and the page. Throws InputError if they cannot be written; so does update().
+  explicit Monitor(const std::filesystem::path& run_folder,
+                   std::chrono::milliseconds interval = std::chrono::seconds(1));
+
+  /// True if update() would write: nothing need be gathered before.
+  bool due() const;
+  /// Replaces the status atomically, at most once an interval unless forced (the last word of a run).
+  void update(const MonitorStatus& status, bool force = false);
+
+ private:
+  std::filesystem::path folder_;
+  std::chrono::steady_clock::duration interval_;
+  std::optional<std::chrono::steady_clock::time_point> written_;
+};
+
+}  // namespace ejecta

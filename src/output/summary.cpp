@@ -1,0 +1,47 @@
+#include "output/summary.hpp"
+
+#include <fmt/format.h>
+
+#include "output/atomic_file.hpp"
+#include "output/json.hpp"
+
+namespace ejecta {
+
+std::string summary_json(const Summary& s) {
+  std::string text;
+  const auto add = [&](const char* key, const auto& value) {
+    text += fmt::format("{}  \"{}\": {}", text.empty() ? "{\n" : ",\n", key, to_json(value));
+  };
+  add("scene", s.scene);
+  add("dimension", s.dimension);
+  add("scheme", s.scheme);
+  add("precision", s.precision);
+  add("threads", s.threads);
+  add("particles", s.particles);
+  add("cells", s.cells);
+  add("steps", s.steps);
+  add("time_s", s.time_s);
+  add("wall_s", s.wall_s);
+  add("particle_steps_per_s", s.particle_steps_per_s);
+  add("pair_interactions_per_s", s.pair_interactions_per_s);
+  add("neighbours_mean", s.neighbours_mean);
+  add("bytes_per_particle", s.bytes_per_particle);
+  add("peak_rss_mb", s.peak_rss_mb);
+  add("mass_error_rel", s.mass_error_rel);
+  add("momentum_error_rel", s.momentum_error_rel);
+  add("energy_error_rel", s.energy_error_rel);
+  add("images", s.images);
+  add("insitu_share", s.insitu_share);
+  add("insitu_bytes_written", s.insitu_bytes_written);
+  add("full_dump_bytes_avoided", s.full_dump_bytes_avoided);
+  add("largest_fragment_mass_fraction", s.largest_fragment_mass_fraction);
+  add("fragments", s.fragments);
+  add("exit", s.exit);
+  return text + "\n}\n";
+}
+
+void write_summary(const std::filesystem::path& file, const Summary& summary) {
+  write_atomically(file, summary_json(summary));
+}
+
+}  // namespace ejecta

@@ -1,0 +1,37 @@
+#pragma once
+/// summary.json: the machine-readable end result of a run. The keys are the member names and never change.
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace ejecta {
+
+/// Values that do not apply stay empty and are written as null, like numbers that are not finite.
+struct Summary {
+  std::string scene;
+  int dimension = 3;
+  std::string scheme, precision;
+  int threads = 1;
+  std::int64_t particles = 0;
+  std::optional<std::int64_t> cells;  ///< of the finite-volume patch
+  std::int64_t steps = 0;
+  double time_s = 0, wall_s = 0;
+  std::optional<double> particle_steps_per_s, pair_interactions_per_s, neighbours_mean;
+  std::optional<double> bytes_per_particle, peak_rss_mb;
+  std::optional<double> mass_error_rel, momentum_error_rel, energy_error_rel;
+  std::optional<std::int64_t> images;
+  std::optional<double> insitu_share;
+  std::optional<std::int64_t> insitu_bytes_written, full_dump_bytes_avoided;
+  std::optional<double> largest_fragment_mass_fraction;
+  std::optional<std::int64_t> fragments;
+  int exit = 0;  ///< exit code: 0, 2, 3
+};
+
+/// One JSON object, one key a line, in the order of the members.
+std::string summary_json(const Summary& summary);
+
+/// Replaces the file atomically. Throws InputError if it cannot be written.
+void write_summary(const std::filesystem::path& file, const Summary& summary);
+
+}  // namespace ejecta

@@ -1,0 +1,38 @@
+#pragma once
+/// Images of particles beyond periodic and reflecting faces. Images exist only as partners in the pair lists: they
+/// have no columns, and their records are made from those of their sources at every pass.
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "particles/particles.hpp"
+#include "scene/scene.hpp"
+
+namespace ejecta {
+
+/// An image of particle `source`: shifted by `shift` box lengths, or mirrored at a face, axis by axis.
+struct Image {
+  std::uint32_t source;
+  std::array<std::int8_t, 3> shift{0, 0, 0};   ///< periodic: -1, 0, 1 box lengths
+  std::array<std::int8_t, 3> mirror{0, 0, 0};  ///< reflecting: -1 lower face, 1 upper face, 0 none
+};
+
+/// Position of the image of x along one axis.
+double image_position(const Boundary& boundary, const Image& image, int axis, double x);
+
+/// All images of particles nearer than `reach` [m] to a face. A periodic box must be wider than twice the reach.
+template <int Dim>
+void make_images(const Particles<Dim>& particles, const Boundary& boundary, double reach, std::vector<Image>& images);
+
+/// Puts particles that left a periodic face back in at the other side.
+template <int Dim>
+void wrap_positions(Particles<Dim>& particles, const Boundary& boundary);
+
+/// True if any axis is not open.
+inline bool bounded(const Boundary& b) {
+  for (BoundaryKind k : b.kind)
+    if (k != BoundaryKind::open) return true;
+  return false;
+}
+
+}  // namespace ejecta

@@ -1,0 +1,40 @@
+#include "particles/fields.hpp"
+
+namespace ejecta {
+
+const std::array<FieldInfo, field_count>& field_catalogue() {
+  using enum Shape;
+  using enum Role;
+  static constexpr std::array<FieldInfo, field_count> catalogue{{
+      {Field::position, "position", vector, "m", state, "particle position"},
+      {Field::velocity, "velocity", vector, "m/s", state, "particle velocity"},
+      {Field::acceleration, "acceleration", vector, "m/s^2", rate, "rate of velocity"},
+      {Field::mass, "mass", scalar, "kg", constant, "particle mass (kg/m in plane strain)"},
+      {Field::density, "density", scalar, "kg/m^3", state, "bulk density"},
+      {Field::density_rate, "density_rate", scalar, "kg/m^3/s", rate, "rate of density by continuity"},
+      {Field::specific_energy, "specific_energy", scalar, "J/kg", state, "specific internal energy"},
+      {Field::heating, "heating", scalar, "W/kg", rate, "rate of specific internal energy"},
+      {Field::pressure, "pressure", scalar, "Pa", derived, "pressure after damage, compression positive"},
+      {Field::sound_speed, "sound_speed", scalar, "m/s", derived, "longitudinal sound speed"},
+      {Field::smoothing_length, "smoothing_length", scalar, "m", state, "smoothing length h"},
+      {Field::neighbour_sum, "neighbour_sum", scalar, "1", derived, "zeroth moment sum of |dW/deta| over neighbours"},
+      {Field::velocity_gradient, "velocity_gradient", tensor, "1/s", derived, "dv_a/dx_b, row by row"},
+      {Field::shear_switch, "shear_switch", scalar, "1", state, "Balsara factor of the viscosity"},
+      {Field::approach_speed, "approach_speed", scalar, "m/s", derived, "largest |mu| of the viscosity over the pairs"},
+      {Field::deviatoric_stress, "deviatoric_stress", deviator, "Pa", state, "stress deviator before damage"},
+      {Field::stress_rate, "stress_rate", deviator, "Pa/s", rate, "objective rate of the stress deviator"},
+      {Field::plastic_strain, "plastic_strain", scalar, "1", state, "accumulated equivalent plastic strain"},
+      {Field::distension, "distension", scalar, "1", state, "alpha = solid density / bulk density"},
+      {Field::stress_factor, "stress_factor", scalar, "1", derived, "share of the strain rate that the solid sees"},
+      {Field::damage, "damage", scalar, "1", derived, "total damage: tension and pore crushing, at most 1"},
+      {Field::crack, "crack", scalar, "1", state, "cube root of the tensile damage"},
+      {Field::crack_rate, "crack_rate", scalar, "1/s", rate, "growth of the cube root of the tensile damage"},
+      {Field::flaw_strain, "flaw_strain", scalar, "1", constant, "activation strain of the weakest flaw"},
+      {Field::flaw_exponent, "flaw_exponent", scalar, "1", constant, "growth of active flaws: n = (strain/weakest)^exponent"},
+      {Field::flaw_count, "flaw_count", scalar, "1", constant, "number of flaws"},
+      {Field::fragment_number, "fragment_number", scalar, "1", derived, "stable fragment number, 0 is dust"},
+  }};
+  return catalogue;
+}
+
+}  // namespace ejecta

@@ -1,0 +1,57 @@
+#pragma once
+/// The one catalogue of particle fields: name, shape, SI unit, role, meaning. Allocation, sorting, checkpoints, channels
+/// and CSV headers all follow from it. A column exists only if a stage or a channel names its field.
+#include <array>
+#include <string_view>
+
+namespace ejecta {
+
+enum class Field {
+  position, velocity, acceleration,
+  mass, density, density_rate,
+  specific_energy, heating,
+  pressure, sound_speed, smoothing_length, neighbour_sum,
+  velocity_gradient, shear_switch, approach_speed,
+  deviatoric_stress, stress_rate, plastic_strain,
+  distension, stress_factor,
+  damage, crack, crack_rate,
+  flaw_strain, flaw_exponent, flaw_count,
+  // derived on request, for channels only
+  fragment_number,
+  count
+};
+inline constexpr int field_count = static_cast<int>(Field::count);
+
+enum class Shape { scalar, vector, tensor, deviator };
+enum class Role {
+  constant,  ///< set once
+  state,     ///< advanced in time or with memory; makes up a checkpoint
+  rate,      ///< time derivative of a state
+  derived    ///< recomputed by the stages
+};
+
+struct FieldInfo {
+  Field field;
+  std::string_view name;
+  Shape shape;
+  std::string_view unit;
+  Role role;
+  std::string_view doc;
+};
+
+/// In the order of the enumeration.
+const std::array<FieldInfo, field_count>& field_catalogue();
+inline const FieldInfo& info(Field f) { return field_catalogue()[static_cast<std::size_t>(f)]; }
+
+/// Number of components of a shape in Dim dimensions.
+constexpr int components(Shape shape, int dim) {
+  switch (shape) {
+    case Shape::scalar: return 1;
+    case Shape::vector: return dim;
+    case Shape::tensor: return dim * dim;
+    case Shape::deviator: return dim == 2 ? 3 : 5;
+  }
+  return 0;
+}
+
+}  // namespace ejecta

@@ -1,0 +1,195 @@
+#include "particles/pair_lists.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/parallel.hpp"
+#include "base/simd.hpp"
+
+namespace ejecta {
+
+namespace {
+constexpr double least_margin = 0.03;  ///< of the support radius: what even a resting particle may move
+}  // namespace
+
+template <int Dim>
+void PairLists<Dim>::build(const Particles<Dim>& particles, const Settings& settings) {
+  support_per_h_ = settings.support;
+  make_points(particles, settings);
+  make_clusters(particles, settings.cluster_size);
+  make_tree();
+  // Each block of clusters fills a list of its own, which keeps its memory from build to build.
+  const std::size_t blocks = (clusters_.size() + clusters_per_block - 1) / clusters_per_block;
+  if (block_lists_.size() < blocks) block_lists_.resize(blocks);
+  parallel_blocks(clusters_.size(), clusters_per_block, [&](std::size_t begin, std::size_t end) {
+    auto& found = block_lists_[begin / clusters_per_block];
+    found.clear();
+    for (std::size_t c = begin; c < end; ++c) {
+      clusters_[c].list_begin = found.size();
+      search(c, found);
+      clusters_[c].list_end = found.size();
+    }
+  });
+  total_candidates_ = 0;
+  for (const Cluster& c : clusters_) total_candidates_ += c.list_end - c.list_begin;
+  built_for_ = particles.size();
+}
+
+template <int Dim>
+void PairLists<Dim>::make_points(const Particles<Dim>& particles, const Settings& settings) {
+  const std::size_t n = particles.size();
+  const auto h = particles.column(Field::smoothing_length);
+  const auto mass = particles.column(Field::mass);
+  const double total_mass = parallel_sum<double>(n, [&](std::size_t i) { return mass[i]; });
+  for (int a = 0; a < Dim; ++a) {
+    const auto v = particles.column(Field::velocity, a);
+    drift_[a] = parallel_sum<double>(n, [&](std::size_t i) { return mass[i] * v[i]; }) / total_mass;
+  }
+  points_.resize(n);
+  parallel_for(0, n, [&](std::size_t i) {
+    Point& p = points_[i];
+    double speed2 = 0;
+    for (int a = 0; a < Dim; ++a) {
+      p.x[a] = particles.column(Field::position, a)[i];
+      const double v = particles.column(Field::velocity, a)[i] - drift_[a];
+      speed2 += v * v;
+    }
+    p.support = settings.support * h[i];
+    p.margin = least_margin * p.support + std::sqrt(speed2) * settings.horizon;
+  });
+  images_.clear();
+  if (!bounded(settings.boundary)) return;
+  double reach = 0;
+  for (const Point& p : points_) reach = std::max(reach, p.support + 2 * p.margin);
+  make_images(particles, settings.boundary, reach, images_);
+  for (const Image& image : images_) {
+    Point p = points_[image.source];
+    for (int a = 0; a < Dim; ++a) p.x[a] = image_position(settings.boundary, image, a, p.x[a]);
+    points_.push_back(p);
+  }
+}
+
+template <int Dim>
+void PairLists<Dim>::make_clusters(const Particles<Dim>& particles, std::size_t cluster_size) {
+  clusters_.clear();
+  const auto size = static_cast<std::uint32_t>(cluster_size);
+  auto cut = [&](std::vector<Cluster>& into, Range range) {
+    for (auto i = static_cast<std::uint32_t>(range.begin); i < range.end; i += size)
+      into.push_back({i, std::min(i + size, static_cast<std::uint32_t>(range.end))});
+  };
+  for (Range range : particles.material_ranges()) cut(clusters_, range);
+  leaves_ = clusters_;
+  cut(leaves_, {particles.size(), points_.size()});
+}
+
+template <int Dim>
+void PairLists<Dim>::make_tree() {
+  auto enclose = [](Node& node, const auto& low, const auto& high, double support, double margin) {
+    for (int a = 0; a < Dim; ++a) {
+      node.low[a] = std::min(node.low[a], low[a]);
+      node.high[a] = std::max(node.high[a], high[a]);
+    }
+    node.support = std::max(node.support, support);
+    node.margin = std::max(node.margin, margin);
+  };
+  Node empty;
+  empty.low.fill(std::numeric_limits<double>::infinity());
+  empty.high.fill(-std::numeric_limits<double>::infinity());
+
+  std::size_t depth = 1;
+  for (std::size_t count = leaves_.size(); count > fan_out; count = (count + fan_out - 1) / fan_out) ++depth;
+  levels_.resize(depth);
+  levels_[0].assign(leaves_.size(), empty);
+  parallel_for(0, leaves_.size(), [&](std::size_t c) {
+    for (std::size_t i = leaves_[c].begin; i < leaves_[c].end; ++i)
+      enclose(levels_[0][c], points_[i].x, points_[i].x, points_[i].support, points_[i].margin);
+  });
+  for (std::size_t level = 1; level < depth; ++level) {
+    const auto& below = levels_[level - 1];
+    levels_[level].assign((below.size() + fan_out - 1) / fan_out, empty);
+    for (std::size_t k = 0; k < below.size(); ++k)
+      enclose(levels_[level][k / fan_out], below[k].low, below[k].high, below[k].support, below[k].margin);
+  }
+}
+
+template <int Dim>
+void PairLists<Dim>::search(std::size_t cluster, std::vector<std::uint32_t>& found) const {
+  const Node& own = levels_[0][cluster];
+  const Cluster& members = clusters_[cluster];
+  auto near_node = [&](const Node& node) {
+    double distance2 = 0;
+    for (int a = 0; a < Dim; ++a) {
+      const double gap = std::max({0.0, node.low[a] - own.high[a], own.low[a] - node.high[a]});
+      distance2 += gap * gap;
+    }
+    const double reach = std::max(own.support, node.support) + own.margin + node.margin;
+    return distance2 < reach * reach;
+  };
+  const std::size_t groups = (members.end - members.begin + 7) / 8;
+  std::array<simd::Double8, 2> x[Dim], support, margin;
+  for (std::size_t g = 0; g < groups; ++g)
+    for (int k = 0; k < 8; ++k) {
+      const Point& p = points_[std::min<std::size_t>(members.begin + 8 * g + static_cast<std::size_t>(k), members.end - 1)];
+      for (int a = 0; a < Dim; ++a) x[a][g][k] = p.x[a];
+      support[g][k] = p.support;
+      margin[g][k] = p.margin;
+    }
+  auto near_any_member = [&](const Point& q) {
+    for (std::size_t g = 0; g < groups; ++g) {
+      simd::Double8 distance2{};
+      for (int a = 0; a < Dim; ++a) distance2 += (x[a][g] - q.x[a]) * (x[a][g] - q.x[a]);
+      const simd::Double8 reach = simd::max(support[g], simd::Double8{} + q.support) + margin[g] + q.margin;
+      if (simd::any_less(distance2, reach * reach)) return true;
+    }
+    return false;
+  };
+  auto descend = [&](auto&& self, std::size_t level, std::size_t node) -> void {
+    if (!near_node(levels_[level][node])) return;
+    if (level > 0) {
+      const std::size_t end = std::min((node + 1) * fan_out, levels_[level - 1].size());
+      for (std::size_t k = node * fan_out; k < end; ++k) self(self, level - 1, k);
+      return;
+    }
+    for (std::uint32_t j = leaves_[node].begin; j < leaves_[node].end; ++j)
+      if (near_any_member(points_[j])) found.push_back(j);
+  };
+  for (std::size_t k = 0; k < levels_.back().size(); ++k) descend(descend, levels_.size() - 1, k);
+}
+
+template <int Dim>
+bool PairLists<Dim>::valid(const Particles<Dim>& particles, double elapsed) const {
+  if (built_for_ != particles.size()) return false;
+  const auto h = particles.column(Field::smoothing_length);
+  // Excess of motion and of growth over the margin, largest over all particles.
+  const IndexedMin slack = parallel_min(particles.size(), 0.0, [&](std::size_t i) {
+    const Point& p = points_[i];
+    double moved2 = 0;
+    for (int a = 0; a < Dim; ++a) {
+      const double d = particles.column(Field::position, a)[i] - p.x[a] - drift_[a] * elapsed;
+      moved2 += d * d;
+    }
+    const double grown = std::max(0.0, support_per_h_ * h[i] - p.support);
+    return p.margin - std::sqrt(moved2) - grown;
+  });
+  return slack.index == particles.size();
+}
+
+template <int Dim>
+double PairLists<Dim>::mean_candidates() const {
+  return clusters_.empty() ? 0 : static_cast<double>(total_candidates_) / static_cast<double>(clusters_.size());
+}
+
+template <int Dim>
+std::size_t PairLists<Dim>::bytes() const {
+  std::size_t total = points_.capacity() * sizeof(Point) + images_.capacity() * sizeof(Image) +
+                      (clusters_.capacity() + leaves_.capacity()) * sizeof(Cluster);
+  for (const auto& level : levels_) total += level.capacity() * sizeof(Node);
+  for (const auto& list : block_lists_) total += list.capacity() * sizeof(std::uint32_t);
+  return total;
+}
+
+template class PairLists<2>;
+template class PairLists<3>;
+
+}  // namespace ejecta

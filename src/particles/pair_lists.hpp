@@ -1,0 +1,78 @@
+#pragma once
+/// Who may interact with whom. Particles are taken in clusters of W consecutive ones (one per vector lane); the list of
+/// a cluster holds every particle or image that may come within reach of any of its members while the list is in use.
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "particles/boundary_images.hpp"
+#include "particles/particles.hpp"
+
+namespace ejecta {
+
+struct Cluster {
+  std::uint32_t begin, end;              ///< members: particles begin..end-1, of one material, at most W
+  std::size_t list_begin = 0, list_end = 0;  ///< place of its candidates in the list of its block
+};
+
+template <int Dim>
+class PairLists {
+ public:
+  struct Settings {
+    double support = 2;        ///< support radius of the kernel in units of h
+    std::size_t cluster_size = 8;
+    double horizon = 0;        ///< time for which lists should stay valid [s]
+    Boundary boundary;
+  };
+
+  /// Builds the lists. Two particles are candidates if r < max(support h_i, support h_j) + margin_i + margin_j, where the
+  /// margin of a particle covers its own motion relative to the mean for the horizon: fast or far-flung particles
+  /// widen their own search only.
+  void build(const Particles<Dim>& particles, const Settings& settings);
+
+  /// True while no particle has moved (or grown its support) by more than its margin since the lists were built at an
+  /// elapsed time [s] ago.
+  bool valid(const Particles<Dim>& particles, double elapsed) const;
+  void invalidate() { built_for_ = 0; }
+  bool built() const { return built_for_ != 0; }
+
+  const std::vector<Cluster>& clusters() const { return clusters_; }
+  std::span<const std::uint32_t> candidates(std::size_t cluster) const {
+    const Cluster& c = clusters_[cluster];
+    return {block_lists_[cluster / clusters_per_block].data() + c.list_begin, c.list_end - c.list_begin};
+  }
+  /// Candidate index n + k stands for images()[k].
+  const std::vector<Image>& images() const { return images_; }
+  /// Mean number of candidates per cluster.
+  double mean_candidates() const;
+  std::size_t bytes() const;
+
+ private:
+  struct Node {
+    std::array<double, Dim> low, high;
+    double support = 0, margin = 0;
+  };
+  struct Point {
+    std::array<double, Dim> x;
+    double support, margin;
+  };
+  void make_points(const Particles<Dim>& particles, const Settings& settings);
+  void make_clusters(const Particles<Dim>& particles, std::size_t cluster_size);
+  void make_tree();
+  void search(std::size_t cluster, std::vector<std::uint32_t>& found) const;
+
+  static constexpr std::size_t fan_out = 8;
+  std::size_t built_for_ = 0;
+  double support_per_h_ = 0;
+  std::vector<Point> points_;          ///< particles, then images, as of the time of building
+  Vec<Dim> drift_ = Vec<Dim>::Zero();  ///< mean velocity at that time [m/s]
+  std::vector<Image> images_;
+  std::vector<Cluster> clusters_;      ///< of particles
+  std::vector<Cluster> leaves_;        ///< clusters, then groups of images
+  std::vector<std::vector<Node>> levels_;
+  static constexpr std::size_t clusters_per_block = 64;
+  std::vector<std::vector<std::uint32_t>> block_lists_;  ///< candidates of 64 clusters each
+  std::size_t total_candidates_ = 0;
+};
+
+}  // namespace ejecta

@@ -1,0 +1,66 @@
+#include "particles/particles.hpp"
+
+#include <algorithm>
+
+#include "base/parallel.hpp"
+
+namespace ejecta {
+
+template <int Dim>
+void Particles<Dim>::allocate(std::size_t n, std::span<const Field> fields) {
+  size_ = n;
+  present_.fill(false);
+  for (Field f : {Field::position, Field::velocity, Field::acceleration, Field::mass}) present_[index(f)] = true;
+  for (Field f : fields) present_[index(f)] = true;
+  for (const FieldInfo& f : field_catalogue())
+    for (int k = 0; k < components(f.shape, Dim); ++k) {
+      const std::size_t s = index(f.field) * max_components + static_cast<std::size_t>(k);
+      columns_[s].assign(has(f.field) ? n : 0, 0.0);
+      previous_[s].assign(has(f.field) && f.role == Role::rate ? n : 0, 0.0);
+    }
+  for (auto& label : labels_) label.assign(n, 0);
+  scratch_.assign(n, 0.0);
+  label_scratch_.assign(n, 0);
+}
+
+template <int Dim>
+std::vector<Field> Particles<Dim>::fields() const {
+  std::vector<Field> present;
+  for (const FieldInfo& f : field_catalogue())
+    if (has(f.field)) present.push_back(f.field);
+  return present;
+}
+
+template <int Dim>
+void Particles<Dim>::swap_rates() {
+  for (const FieldInfo& f : field_catalogue())
+    if (has(f.field) && f.role == Role::rate)
+      for (int k = 0; k < components(f.shape, Dim); ++k)
+        columns_[slot(f.field, k)].swap(previous_[slot(f.field, k)]);
+}
+
+template <int Dim>
+void Particles<Dim>::reorder(std::span<const std::uint32_t> order) {
+  auto permute = [&](auto& column, auto& scratch) {
+    if (column.empty()) return;
+    parallel_for(0, size_, [&](std::size_t i) { scratch[i] = column[order[i]]; });
+    column.swap(scratch);
+  };
+  for (auto& column : columns_) permute(column, scratch_);
+  for (auto& column : previous_) permute(column, scratch_);
+  for (auto& label : labels_) permute(label, label_scratch_);
+}
+
+template <int Dim>
+std::size_t Particles<Dim>::bytes() const {
+  std::size_t doubles = scratch_.capacity(), labels = label_scratch_.capacity();
+  for (const auto& column : columns_) doubles += column.capacity();
+  for (const auto& column : previous_) doubles += column.capacity();
+  for (const auto& label : labels_) labels += label.capacity();
+  return doubles * sizeof(double) + labels * sizeof(std::int32_t);
+}
+
+template class Particles<2>;
+template class Particles<3>;
+
+}  // namespace ejecta

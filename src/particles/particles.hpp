@@ -1,0 +1,77 @@
+#pragma once
+/// Columns of particle state. A column exists only if it was asked for; columns are stored component by component.
+#include <array>
+#include <cassert>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/types.hpp"
+#include "particles/fields.hpp"
+
+namespace ejecta {
+
+/// Integer labels every particle carries.
+enum class Label { id, body, material, count };
+
+template <int Dim>
+class Particles {
+ public:
+  /// n particles with the given fields (position, velocity, acceleration and mass are always there), all zero.
+  /// Every rate gets a second column for its value at the previous step, which the integrator needs.
+  void allocate(std::size_t n, std::span<const Field> fields);
+
+  std::size_t size() const { return size_; }
+  bool has(Field f) const { return present_[index(f)]; }
+  /// The fields present, in catalogue order.
+  std::vector<Field> fields() const;
+
+  /// One component of a field, n values in the field's SI unit.
+  std::span<double> column(Field f, int component = 0) { return columns_[slot(f, component)]; }
+  std::span<const double> column(Field f, int component = 0) const { return columns_[slot(f, component)]; }
+  /// The same of a rate at the previous step.
+  std::span<double> previous(Field rate, int component = 0) { return previous_[slot(rate, component)]; }
+  std::span<const double> previous(Field rate, int component = 0) const { return previous_[slot(rate, component)]; }
+  /// Makes the current rates the previous ones without copying.
+  void swap_rates();
+
+  std::span<std::int32_t> label(Label l) { return labels_[static_cast<std::size_t>(l)]; }
+  std::span<const std::int32_t> label(Label l) const { return labels_[static_cast<std::size_t>(l)]; }
+
+  Vec<Dim> vector(Field f, std::size_t i) const {
+    Vec<Dim> v;
+    for (int a = 0; a < Dim; ++a) v[a] = column(f, a)[i];
+    return v;
+  }
+  void set_vector(Field f, std::size_t i, const Vec<Dim>& v) {
+    for (int a = 0; a < Dim; ++a) column(f, a)[i] = v[a];
+  }
+
+  /// Particles of one material are contiguous: the range of each, by material number.
+  const std::vector<Range>& material_ranges() const { return material_ranges_; }
+  void set_material_ranges(std::vector<Range> ranges) { material_ranges_ = std::move(ranges); }
+
+  /// Puts particle order[i] at place i, in every column. `order` is a permutation of 0..n-1.
+  void reorder(std::span<const std::uint32_t> order);
+
+  /// Memory of all columns [bytes].
+  std::size_t bytes() const;
+
+ private:
+  static std::size_t index(Field f) { return static_cast<std::size_t>(f); }
+  static constexpr int max_components = Dim * Dim;
+  std::size_t slot(Field f, int component) const {
+    assert(present_[index(f)] && component < components(info(f).shape, Dim));
+    return index(f) * max_components + static_cast<std::size_t>(component);
+  }
+
+  std::size_t size_ = 0;
+  std::array<bool, field_count> present_{};
+  std::array<std::vector<double>, field_count * max_components> columns_, previous_;
+  std::array<std::vector<std::int32_t>, static_cast<std::size_t>(Label::count)> labels_;
+  std::vector<Range> material_ranges_;
+  std::vector<double> scratch_;
+  std::vector<std::int32_t> label_scratch_;
+};
+
+}  // namespace ejecta

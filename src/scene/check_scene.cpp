@@ -1,0 +1,116 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "scene/scene_reader.hpp"
+#include "scene/units.hpp"
+
+namespace ejecta {
+
+namespace {
+
+/// The sizes a shape has, in the order x, y, z of its own axes.
+struct ShapeNeeds {
+  std::string_view shape;
+  int dimension;
+  bool radius, size, length;
+};
+constexpr std::array shapes{ShapeNeeds{"sphere", 3, true, false, false}, ShapeNeeds{"box", 3, false, true, false},
+                            ShapeNeeds{"cylinder", 3, true, false, true}, ShapeNeeds{"disc", 2, true, false, false},
+                            ShapeNeeds{"rectangle", 2, false, true, false}};
+
+/// Reports against one document, and stays silent about a value that has already been refused.
+struct Report {
+  const Document& document;
+  Problems& problems;
+  void operator()(const std::string& path, const std::string& message) const {
+    if (!problems.has(path)) problems.add(document.origin(path), path, message);
+  }
+};
+
+void check_body(const Scene& scene, const Body& body, const std::string& path, const Report& report) {
+  const auto needs = std::find_if(shapes.begin(), shapes.end(), [&](const auto& s) { return s.shape == body.shape; });
+  if (needs->dimension != scene.dimension) {
+    report(path + ".shape", fmt::format("expected {} in {}D, got \"{}\"",
+                                        scene.dimension == 2 ? "disc or rectangle" : "sphere, box or cylinder",
+                                        scene.dimension, body.shape));
+    return;
+  }
+  const auto check_size = [&](const char* key, bool needed, bool given) {
+    if (needed && !given) report(path + "." + key, fmt::format("missing: a {} needs it", body.shape));
+    if (!needed && given) report(path + "." + key, fmt::format("a {} has none", body.shape));
+  };
+  check_size("radius", needs->radius, is_set(body.radius));
+  check_size("length", needs->length, is_set(body.length));
+  check_size("size", needs->size, is_set(body.size[0]));
+  double narrowest = std::numeric_limits<double>::infinity();
+  if (needs->size && is_set(body.size[0])) {
+    const auto end = body.size.begin() + scene.dimension;
+    if (!std::all_of(body.size.begin(), end, [](double edge) { return edge > 0; }))
+      report(path + ".size", fmt::format("expected {} lengths > 0", scene.dimension));
+    else
+      narrowest = *std::min_element(body.size.begin(), end);
+  }
+  if (needs->radius && is_set(body.radius)) narrowest = 2 * body.radius;
+  if (needs->length && is_set(body.length)) narrowest = std::min(narrowest, body.length);
+  if (body.axis == Triple{0, 0, 0}) report(path + ".axis", "expected a direction, got [0, 0, 0]");
+  // A body made to measure may be thinner than the spacing by rounding.
+  const double spacing = scene.spacing * body.spacing_factor;
+  if (is_set(spacing) && narrowest < spacing * (1 - 1e-9))
+    report(path + (needs->size ? ".size" : ".radius"),
+           fmt::format("expected at least one particle across, got {} at a spacing of {}",
+                       format_quantity(narrowest, "m"), format_quantity(spacing, "m")));
+  if (scene.dimension == 2 && (body.velocity[2] != 0 || body.center[2] != 0))
+    report(path + (body.velocity[2] != 0 ? ".velocity" : ".center"), "expected no z component in 2D");
+  if (is_set(body.pressure) && body.specific_energy != 0)
+    report(path + ".pressure", "expected either pressure or specific_energy, got both");
+}
+
+void check_boundary(const Scene& scene, const Report& report) {
+  constexpr std::array axes{"x", "y", "z"};
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (scene.boundary.kind[k] == BoundaryKind::open) continue;
+    const std::string path = std::string("boundary.") + axes[k];
+    const double min = scene.boundary.min[k], max = scene.boundary.max[k];
+    if (k == 2 && scene.dimension == 2)
+      report(path, "expected open in 2D");
+    else if (!is_set(min) || !is_set(max))
+      report(path, fmt::format("needs boundary.min and boundary.max along {}", axes[k]));
+    else if (!(min < max))
+      report(path, fmt::format("expected boundary.min < boundary.max along {}, got {} and {}", axes[k],
+                               format_quantity(min, "m"), format_quantity(max, "m")));
+  }
+}
+
+}  // namespace
+
+void check_scene(const Scene& scene, const Document& document, Problems& problems) {
+  const Report report{document, problems};
+  constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
+  const auto check_name = [&](const std::string& path, const std::string& name) {
+    if (!name.empty() && name.find_first_not_of(plain) == std::string::npos) return;
+    if (document.items.contains(path)) report(path, fmt::format("expected letters, digits, _ and -, got \"{}\"", name));
+  };
+  check_name("scene.name", scene.name);
+  std::set<std::string> names, used_materials;
+  for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
+    const Body& body = scene.bodies[k];
+    const std::string path = fmt::format("bodies[{}]", k);
+    check_name(path + ".name", body.name);
+    check_name(path + ".material", body.material);
+    if (!body.name.empty() && !names.insert(body.name).second)
+      report(path + ".name", fmt::format("expected a name of its own, got \"{}\" again", body.name));
+    used_materials.insert(body.material);
+    check_body(scene, body, path, report);
+  }
+  for (const auto& [name, values] : scene.materials)
+    if (!used_materials.contains(name)) {
+      const Origin origin = values.items.empty() ? Origin{document.file, 0} : values.items.begin()->second.origin;
+      problems.add(origin, "materials." + name, "no body is made of it");
+    }
+  check_boundary(scene, report);
+}
+
+}  // namespace ejecta

@@ -1,0 +1,115 @@
+#include "scene/describe.hpp"
+
+#include <fmt/format.h>
+
+namespace ejecta {
+
+void describe(Describer& d, Body& b) {
+  d.text("name", b.name, "how messages, --set and the images call the body").required = true;
+  d.text("material", b.material, "name of materials/<material>.toml").required = true;
+  d.word("shape", b.shape, {"sphere", "box", "cylinder", "disc", "rectangle"},
+         "disc and rectangle in 2D, the others in 3D");
+  d.triple("center", b.center, "m", "centre of the shape");
+  d.number("radius", b.radius, "m", positive, "of a sphere, disc or cylinder");
+  d.triple("size", b.size, "m", "edge lengths of a box or rectangle");
+  d.number("length", b.length, "m", positive, "of a cylinder, along its axis");
+  d.triple("axis", b.axis, "1", "direction of a cylinder's axis");
+  d.triple("velocity", b.velocity, "m/s", "at the start");
+  d.number("density", b.density, "kg/m^3", positive, "at the start, pores included; else the material's own");
+  d.number("pressure", b.pressure, "Pa", non_negative, "of a gas at the start; sets its specific energy");
+  d.number("specific_energy", b.specific_energy, "J/kg", any_number, "at the start, where no pressure is given");
+  d.number("spacing_factor", b.spacing_factor, "1", positive, "particle spacing relative to resolution.spacing");
+}
+
+void describe(Describer& d, Numerics& n) {
+  d.choice("scheme", n.scheme, "how neighbours push each other");
+  d.choice("kernel", n.kernel, "smoothing kernel");
+  d.choice("precision", n.precision, "of the pair passes; mixed: pair differences in float, sums and states in double");
+  d.choice("density", n.density, "continuity for solids; summation for gases only");
+  d.number("nodes_per_h", n.nodes_per_h, "1", between(1, 4), "particles per smoothing length");
+  d.number("smoothing_growth", n.smoothing_growth, "1", at_least(1),
+           "largest h relative to its initial value; 1: h constant");
+  d.flag("gradient_correction", n.gradient_correction, "velocity gradients exact for linear fields");
+  d.flag("balsara", n.balsara, "shear switch on the viscosity");
+  d.number("viscosity_alpha", n.viscosity_alpha, "1", non_negative, "linear coefficient of Monaghan's viscosity");
+  d.number("viscosity_beta", n.viscosity_beta, "1", non_negative, "quadratic coefficient of Monaghan's viscosity");
+  d.number("courant", n.courant, "1", {.min = 0, .max = 1, .open_min = true}, "time step in signal crossings of h");
+  d.choice("distension_solver", n.distension_solver, "root finder of the porosity model; the last two for comparison");
+  d.number("distension_tolerance", n.distension_tolerance, "1", {.min = 0, .max = 1e-7, .open_min = true},
+           "absolute, on the distension; above 1e-7 the damage field oscillates");
+  d.number("max_energy_drift", n.max_energy_drift, "1", positive,
+           "the run fails beyond this relative drift of total energy");
+}
+
+void describe(Describer& d, Boundary& b) {
+  constexpr std::array axes{"x", "y", "z"};
+  for (std::size_t k = 0; k < axes.size(); ++k)
+    d.choice(axes[k], b.kind[k], fmt::format("the two faces across {}", axes[k]));
+  d.triple("min", b.min, "m", "lower corner of the box; components of open axes do not matter");
+  d.triple("max", b.max, "m", "upper corner of the box; components of open axes do not matter");
+}
+
+void describe(Describer& d, InSitu& i) {
+  d.flag("enabled", i.enabled, "images and statistics while the run goes on");
+  d.integer("frames", i.frames, at_least(2), "equally spaced in simulated time, first and last included");
+  d.texts("pipelines", i.pipelines, "Catalyst scripts beside the scene; none: the default set of the dimension");
+  d.texts("fields", i.fields, "further fields on channel particles");
+  d.choice("on_error", i.on_error, "what a failing pipeline does to the run");
+  d.number("max_share", i.max_share, "1", {.min = 0, .max = 1, .open_min = true},
+           "frames are thinned out when they take more than this share of the wall time");
+  d.integer("image_width", i.image_width, between(64, 8192), "pixels");
+  d.integer("image_height", i.image_height, between(64, 8192), "pixels");
+  d.triple("view_center", i.view_center, "m", "middle of the images; else the centre of the bodies at rest");
+  d.number("view_size", i.view_size, "m", positive, "visible width; else 1.6 times the extent of the slowest body");
+}
+
+void describe(Describer& d, FragmentSettings& f) {
+  d.flag("enabled", f.enabled, "find connected pieces during the run");
+  d.number("linking_length", f.linking_length, "1", positive, "friends are nearer than this many mean particle sizes");
+  d.number("damage_threshold", f.damage_threshold, "1", between(0, 1), "particles damaged beyond this are dust");
+  d.integer("min_particles", f.min_particles, at_least(1), "smaller groups are dust");
+}
+
+void describe(Describer& d, OutputSettings& o) {
+  d.number("history_interval", o.history_interval, "s", positive,
+           "simulated time between rows of history.csv; else end/200");
+  d.number("checkpoint_interval", o.checkpoint_interval, "s", non_negative,
+           "wall time between checkpoints; 0: only at the end");
+  d.integer("snapshots", o.snapshots, non_negative, "full dumps, equally spaced in simulated time");
+}
+
+void describe(Describer& d, Scene& s) {
+  d.section("scene", "what it is");
+  d.text("name", s.name, "names the run folder").required = true;
+  d.text("title", s.title, "one line for people");
+  d.integer("dimension", s.dimension, between(2, 3), "2: plane strain, masses per metre of depth");
+  d.section("resolution", "how fine");
+  d.number("spacing", s.spacing, "m", positive, "distance between particles at the start").required = true;
+  d.choice("lattice", s.lattice, "arrangement of the particles at the start");
+  d.section("time", "how long");
+  d.number("end", s.time_end, "s", positive, "simulated time at which the run ends").required = true;
+  d.integer("max_steps", s.max_steps, non_negative, "ends the run earlier; 0: no limit");
+  for (std::size_t k = 0; k < s.bodies.size(); ++k) {
+    d.section(fmt::format("bodies[{}]", k), "one body, filled with particles at set-up");
+    describe(d, s.bodies[k]);
+  }
+  d.section("numerics", "how the equations are solved");
+  describe(d, s.numerics);
+  d.section("boundary", "faces of a box around everything");
+  describe(d, s.boundary);
+  d.section("insitu", "pictures while the run goes on");
+  describe(d, s.insitu);
+  d.section("insitu.ranges", "field name = fixed colour range");
+  for (auto& [field, range] : s.insitu.ranges)
+    d.range(field, range, "same from the first frame to the last").required = true;
+  d.section("fragments", "connected pieces and their masses");
+  describe(d, s.fragments);
+  d.section("output", "files");
+  describe(d, s.output);
+  d.section("run", "the machine");
+  d.integer("threads", s.threads, between(0, 4096), "0: all cores; never changes the result");
+  d.section("random", "chance");
+  d.integer("seed", s.seed, "of the flaws in brittle bodies");
+}
+
+}  // namespace ejecta

@@ -1,0 +1,61 @@
+#include "scene/describer.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "scene/units.hpp"
+
+namespace ejecta {
+
+std::string to_text(const Limits& limits, std::string_view si_unit) {
+  const auto text = [&](double bound) { return bound == 0 ? std::string("0") : format_quantity(bound, si_unit); };
+  if (std::isfinite(limits.min) && std::isfinite(limits.max))
+    return fmt::format("from {} to {}", text(limits.min), text(limits.max));
+  if (std::isfinite(limits.min)) return fmt::format("{} {}", limits.open_min ? ">" : ">=", text(limits.min));
+  if (std::isfinite(limits.max)) return fmt::format("<= {}", text(limits.max));
+  return "";
+}
+
+void Describer::section(std::string name, std::string doc) { sections_.push_back({std::move(name), std::move(doc)}); }
+
+Setting& Describer::add(std::string key, Target target, std::string unit, Limits limits, std::string doc) {
+  const std::string section = sections_.empty() ? "" : sections_.back().name;
+  settings_.push_back({section, std::move(key), std::move(target), std::move(unit), limits, std::move(doc)});
+  return settings_.back();
+}
+
+Setting& Describer::number(std::string key, double& value, std::string unit, Limits limits, std::string doc) {
+  return add(std::move(key), &value, std::move(unit), limits, std::move(doc));
+}
+Setting& Describer::triple(std::string key, Triple& value, std::string unit, std::string doc) {
+  return add(std::move(key), &value, std::move(unit), any_number, std::move(doc));
+}
+Setting& Describer::range(std::string key, ColourRange& value, std::string doc) {
+  return add(std::move(key), &value, "any", any_number, std::move(doc));
+}
+Setting& Describer::flag(std::string key, bool& value, std::string doc) {
+  return add(std::move(key), &value, "", any_number, std::move(doc));
+}
+Setting& Describer::integer(std::string key, int& value, Limits limits, std::string doc) {
+  return add(std::move(key), &value, "1", limits, std::move(doc));
+}
+Setting& Describer::integer(std::string key, std::int64_t& value, Limits limits, std::string doc) {
+  return add(std::move(key), &value, "1", limits, std::move(doc));
+}
+Setting& Describer::integer(std::string key, std::uint64_t& value, std::string doc) {
+  return add(std::move(key), &value, "1", non_negative, std::move(doc));
+}
+Setting& Describer::text(std::string key, std::string& value, std::string doc) {
+  return add(std::move(key), &value, "", any_number, std::move(doc));
+}
+Setting& Describer::texts(std::string key, std::vector<std::string>& values, std::string doc) {
+  return add(std::move(key), &values, "", any_number, std::move(doc));
+}
+Setting& Describer::word(std::string key, std::string& value, std::vector<std::string> words, std::string doc) {
+  Choice choice{words, [&value] { return value; }, [&value, words](std::size_t k) { value = words[k]; }};
+  return add(std::move(key), std::move(choice), "", any_number, std::move(doc));
+}
+
+}  // namespace ejecta

@@ -1,0 +1,179 @@
+#include "scene/document.hpp"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <set>
+#include <sstream>
+
+#include "base/errors.hpp"
+
+namespace ejecta {
+
+namespace {
+
+/// Nothing for what settings never hold: dates and times, and tables inside lists of values.
+bool read_literal(const toml::node& node, Literal& literal) {
+  if (const auto* flag = node.as_boolean()) return literal.value = flag->get(), true;
+  if (const auto* integer = node.as_integer()) return literal.value = integer->get(), true;
+  if (const auto* number = node.as_floating_point()) return literal.value = number->get(), true;
+  if (const auto* text = node.as_string()) return literal.value = text->get(), true;
+  const toml::array* array = node.as_array();
+  if (!array) return false;
+  LiteralList list(array->size());
+  for (std::size_t k = 0; k < list.size(); ++k)
+    if (!read_literal(*array->get(k), list[k])) return false;
+  literal.value = std::move(list);
+  return true;
+}
+
+void flatten(const toml::table& table, const std::string& path, Document& document,
+             std::vector<std::string>& problems) {
+  const auto origin_of = [&](const toml::node& node) {
+    const int line = static_cast<int>(node.source().begin.line);
+    return Origin{fmt::format("{}:{}", document.file, line), line};
+  };
+  for (const auto& [key, node] : table) {
+    const std::string here = path.empty() ? std::string(key.str()) : path + "." + std::string(key.str());
+    const Origin origin = origin_of(node);
+    if (const toml::table* inner = node.as_table()) {
+      document.tables[here] = origin;
+      flatten(*inner, here, document, problems);
+    } else if (const toml::array* array = node.as_array(); array && !array->empty() && array->is_array_of_tables()) {
+      for (std::size_t k = 0; k < array->size(); ++k) {
+        const std::string element = fmt::format("{}[{}]", here, k);
+        document.tables[element] = origin_of(*array->get(k));
+        flatten(*array->get(k)->as_table(), element, document, problems);
+      }
+    } else {
+      Literal literal;
+      if (read_literal(node, literal))
+        document.items[here] = {literal, origin};
+      else
+        problems.push_back(fmt::format(
+            "{}: {}: expected a text, number, true, false or a list of them, got a date or table", origin.text, here));
+    }
+  }
+}
+
+/// "bodies.projectile.velocity" -> "bodies[1].velocity"; other paths stay. Throws if there is no such body.
+std::string resolve_body(const Document& document, const std::string& path) {
+  constexpr std::string_view by_name = "bodies.", by_index = "bodies[";
+  if (!path.starts_with(by_name) && !path.starts_with(by_index)) return path;
+  const std::size_t dot = path.find('.', by_name.size());
+  const std::string body = path.substr(by_name.size(), dot - by_name.size());
+  std::string known;
+  for (std::size_t k = 0; k < document.count("bodies"); ++k) {
+    const std::string element = fmt::format("bodies[{}]", k);
+    const auto name = document.items.find(element + ".name");
+    const std::string text = name == document.items.end() ? element : to_text(name->second.literal);
+    if (path.starts_with(element + ".")) return path;
+    if (text == '"' + body + '"' && dot != std::string::npos) return element + path.substr(dot);
+    known += (known.empty() ? "" : ", ") + text;
+  }
+  throw InputError(
+      fmt::format("--set {}: expected one of the bodies {}", path, known.empty() ? "(there is none)" : known));
+}
+
+Literal parse_literal(const std::string& text) {
+  try {
+    const toml::table table = toml::parse("value = " + text);
+    Literal literal;
+    if (table.size() == 1 && read_literal(*table.get("value"), literal)) return literal;
+  } catch (const toml::parse_error&) {
+    // Not a TOML value: a bare word or quantity such as 20us, taken as text.
+  }
+  return {text};
+}
+
+}  // namespace
+
+std::string to_text(const Literal& literal) {
+  struct Visitor {
+    std::string operator()(bool flag) const { return flag ? "true" : "false"; }
+    std::string operator()(std::int64_t integer) const { return fmt::format("{}", integer); }
+    std::string operator()(double number) const { return fmt::format("{}", number); }
+    std::string operator()(const std::string& text) const { return '"' + text + '"'; }
+    std::string operator()(const LiteralList& list) const {
+      std::string text;
+      for (const Literal& element : list) text += (text.empty() ? "" : ", ") + to_text(element);
+      return "[" + text + "]";
+    }
+  };
+  return std::visit(Visitor{}, literal.value);
+}
+
+Origin Document::origin(const std::string& path) const {
+  if (const auto item = items.find(path); item != items.end()) return item->second.origin;
+  if (const auto table = tables.find(path); table != tables.end()) return table->second;
+  for (std::size_t dot = path.rfind('.'); dot != std::string::npos && dot > 0; dot = path.rfind('.', dot - 1))
+    if (const auto table = tables.find(path.substr(0, dot)); table != tables.end()) return table->second;
+  return {file, 0};
+}
+
+std::size_t Document::count(const std::string& name) const {
+  std::size_t n = 0;
+  while (tables.contains(fmt::format("{}[{}]", name, n))) ++n;
+  return n;
+}
+
+std::vector<std::string> Document::children(const std::string& path) const {
+  std::set<std::string> names;
+  const std::string prefix = path + ".";
+  const auto collect = [&](const auto& map) {
+    for (const auto& [key, unused] : map)
+      if (key.starts_with(prefix))
+        names.insert(key.substr(prefix.size(), key.find('.', prefix.size()) - prefix.size()));
+  };
+  collect(items);
+  collect(tables);
+  return {names.begin(), names.end()};
+}
+
+Document Document::below(const std::string& path) const {
+  Document part;
+  part.file = file;
+  const std::string prefix = path + ".";
+  for (const auto& [key, item] : items)
+    if (key.starts_with(prefix)) part.items[key.substr(prefix.size())] = item;
+  for (const auto& [key, origin] : tables)
+    if (key.starts_with(prefix)) part.tables[key.substr(prefix.size())] = origin;
+  return part;
+}
+
+Document parse_document(const std::string& text, const std::string& name) {
+  Document document;
+  document.file = name;
+  std::vector<std::string> problems;
+  try {
+    flatten(toml::parse(text), "", document, problems);
+  } catch (const toml::parse_error& error) {
+    throw InputError(fmt::format("{}:{}: not valid TOML: {}", name, error.source().begin.line, error.description()));
+  }
+  if (!problems.empty()) throw InputError(problems);
+  return document;
+}
+
+Document read_document(const std::string& path) {
+  if (!std::filesystem::exists(path)) throw InputError(fmt::format("{}: no such file", path));
+  std::ifstream file(path);
+  std::stringstream text;
+  if (!std::filesystem::is_regular_file(path) || !(text << file.rdbuf()))
+    throw InputError(fmt::format("{}: cannot be read", path));
+  return parse_document(text.str(), path);
+}
+
+void apply_override(Document& document, const std::string& assignment) {
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string::npos || equals == 0 || equals + 1 == assignment.size())
+    throw InputError(fmt::format("--set {}: expected key=value such as time.end=20us", assignment));
+  const std::string key = assignment.substr(0, equals);
+  const std::string path = resolve_body(document, key);
+  document.items[path] = {parse_literal(assignment.substr(equals + 1)),
+                          {"--set " + key, std::numeric_limits<int>::max()}};
+}
+
+}  // namespace ejecta

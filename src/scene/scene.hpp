@@ -1,0 +1,119 @@
+#pragma once
+/// What a scene file asks for, checked and in SI. Plain values with their defaults: `describe.cpp` says the unit, the
+/// range and the meaning of each, and the same text reads, checks, echoes and documents them.
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "scene/document.hpp"
+
+namespace ejecta {
+
+inline constexpr double unset = std::numeric_limits<double>::signaling_NaN();
+inline bool is_set(double value) { return !std::isnan(value); }
+using Triple = std::array<double, 3>;  ///< x, y, z; z is ignored in plane strain
+
+enum class Kernel { cubic_spline, quintic_spline, wendland_c2, wendland_c4 };
+enum class SchemeKind { sph };
+enum class Precision { double_precision, mixed };
+enum class DensityMethod { continuity, summation };
+enum class BoundaryKind { open, periodic, reflecting };
+enum class DistensionSolver { safe_newton, bisection, newton };
+enum class Lattice { cubic, hexagonal };
+enum class OnError { continue_run, abort };
+
+/// One solid or gas body, filled with particles at set-up. Later bodies do not displace earlier ones.
+struct Body {
+  std::string name;
+  std::string material;              ///< name of inputs/materials/<material>.toml
+  std::string shape = "sphere";      ///< sphere | box | cylinder (2D: disc | rectangle)
+  Triple center{0, 0, 0};            ///< m
+  double radius = unset;             ///< m; sphere, cylinder
+  Triple size{unset, unset, unset};  ///< m; box: full edge lengths
+  double length = unset;             ///< m; cylinder
+  Triple axis{0, 0, 1};              ///< cylinder axis
+  Triple velocity{0, 0, 0};          ///< m/s
+  double density = unset;            ///< kg/m^3; default: the material's reference bulk density
+  double pressure = unset;           ///< Pa; gas bodies: sets the specific energy
+  double specific_energy = 0;        ///< J/kg; used where pressure is not given
+  double spacing_factor = 1;         ///< particle spacing relative to resolution.spacing
+};
+
+struct Numerics {
+  SchemeKind scheme = SchemeKind::sph;
+  Kernel kernel = Kernel::wendland_c2;
+  Precision precision = Precision::double_precision;
+  DensityMethod density = DensityMethod::continuity;
+  double nodes_per_h = 1.3;          ///< n_h of seed 001: particles per smoothing length
+  double smoothing_growth = 1.5;     ///< h stays within [1/4, this] of its initial value; 1 keeps h constant
+  bool gradient_correction = false;  ///< velocity gradients exact for linear fields
+  bool balsara = false;              ///< shear switch on the viscosity
+  double viscosity_alpha = 1;        ///< linear coefficient of Monaghan's viscosity
+  double viscosity_beta = 2;         ///< quadratic coefficient
+  double courant = 0.25;
+  DistensionSolver distension_solver = DistensionSolver::safe_newton;
+  double distension_tolerance = 1e-12;
+  double max_energy_drift = 0.05;  ///< run ends with an error beyond this relative drift of total energy
+};
+
+/// Box with periodic or reflecting faces; axes that are open extend to infinity.
+struct Boundary {
+  std::array<BoundaryKind, 3> kind{BoundaryKind::open, BoundaryKind::open, BoundaryKind::open};  ///< x, y, z
+  Triple min{unset, unset, unset}, max{unset, unset, unset};                                     ///< m
+};
+
+/// A colour range that stays fixed from the first frame to the last.
+struct ColourRange {
+  double min, max;
+};
+
+struct InSitu {
+  bool enabled = true;
+  int frames = 60;                     ///< equally spaced in simulated time, first and last included
+  std::vector<std::string> pipelines;  ///< Catalyst V2 scripts (paths); empty: the default set of the dimension
+  std::vector<std::string> fields;     ///< extra fields on channel `particles`
+  OnError on_error = OnError::continue_run;
+  double max_share = 0.15;  ///< cadence is stretched when in-situ work exceeds this share of wall time
+  int image_width = 960, image_height = 720;
+  Triple view_center{unset, unset, unset};    ///< m; default: centre of the bodies at rest
+  double view_size = unset;                   ///< m; visible width; default: 1.6 times the extent of the slowest body
+  std::map<std::string, ColourRange> ranges;  ///< field name -> fixed colour range in SI
+};
+
+struct FragmentSettings {
+  bool enabled = false;
+  double linking_length = 1.4;     ///< in units of the mean particle size (m/rho)^(1/Dim)
+  double damage_threshold = 0.99;  ///< particles damaged beyond this link to nothing (dust)
+  int min_particles = 8;           ///< smaller groups count as dust
+};
+
+struct OutputSettings {
+  double history_interval = unset;   ///< s of simulated time; default: end/200
+  double checkpoint_interval = 600;  ///< s of wall time; 0: only at the end
+  int snapshots = 0;                 ///< full HDF5 dumps, equally spaced in time; 0: none
+};
+
+struct Scene {
+  std::string file;  ///< path of the scene file
+  std::string name, title;
+  int dimension = 3;
+  double spacing = unset;  ///< m
+  Lattice lattice = Lattice::cubic;
+  double time_end = unset;     ///< s
+  std::int64_t max_steps = 0;  ///< 0: no limit
+  std::vector<Body> bodies;
+  Numerics numerics;
+  Boundary boundary;
+  InSitu insitu;
+  FragmentSettings fragments;
+  OutputSettings output;
+  std::map<std::string, Document> materials;  ///< material name -> values that replace those of its file
+  int threads = 0;                            ///< 0: all cores
+  std::uint64_t seed = 1;
+};
+
+}  // namespace ejecta

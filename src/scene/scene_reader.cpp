@@ -1,0 +1,97 @@
+#include "scene/scene_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "base/errors.hpp"
+#include "scene/describe.hpp"
+
+namespace ejecta {
+
+namespace {
+
+/// Takes [materials.*] out of the document: what they hold depends on the models of each material.
+void take_materials(Document& document, Scene& scene, Problems& problems) {
+  for (const std::string& name : document.children("materials")) {
+    const std::string path = "materials." + name;
+    if (const auto item = document.items.find(path); item != document.items.end())
+      problems.add(item->second.origin, path, "expected a section, got " + to_text(item->second.literal));
+    scene.materials[name] = document.below(path);
+  }
+  const auto below_materials = [](const auto& entry) { return entry.first.starts_with("materials."); };
+  std::erase_if(document.items, below_materials);
+  std::erase_if(document.tables, below_materials);
+  document.tables.erase("materials");
+}
+
+/// A pipeline is written relative to the scene file.
+void find_pipelines(Scene& scene, const Document& document, Problems& problems) {
+  namespace fs = std::filesystem;
+  for (std::string& pipeline : scene.insitu.pipelines) {
+    const fs::path path = fs::path(scene.file).parent_path() / pipeline;  // an absolute path stays itself
+    if (!fs::is_regular_file(path)) {
+      const std::string key = "insitu.pipelines";
+      problems.add(document.origin(key), key,
+                   fmt::format("expected a script, got \"{}\": no such file {}", pipeline, path.string()));
+    } else {
+      pipeline = fs::absolute(path).lexically_normal().string();
+    }
+  }
+}
+
+Scene interpret(Document document, const std::vector<std::string>& overrides) {
+  Problems problems;
+  for (const std::string& assignment : overrides) {
+    try {
+      apply_override(document, assignment);
+    } catch (const InputError& error) {
+      problems.add(error.problems());
+    }
+  }
+  Scene scene;
+  scene.file = document.file;
+  take_materials(document, scene, problems);
+  scene.bodies.resize(document.count("bodies"));
+  if (scene.bodies.empty())
+    problems.add(document.origin("bodies"), "bodies", "expected at least one body, each written under [[bodies]]");
+  // A single [bodies] has just been refused as a whole.
+  if (document.tables.erase("bodies"))
+    std::erase_if(document.items, [](const auto& item) { return item.first.starts_with("bodies."); });
+  for (const std::string& field : document.children("insitu.ranges")) scene.insitu.ranges[field] = {0, 1};
+  Describer description;
+  describe(description, scene);
+  read_settings(description, document, problems);
+  find_pipelines(scene, document, problems);
+  check_scene(scene, document, problems);
+  problems.throw_if_any();
+  return scene;
+}
+
+}  // namespace
+
+Scene read_scene(const std::string& path, const std::vector<std::string>& overrides) {
+  return interpret(read_document(path), overrides);
+}
+
+Scene parse_scene(const std::string& text, const std::string& name, const std::vector<std::string>& overrides) {
+  return interpret(parse_document(text, name), overrides);
+}
+
+std::string scene_toml(const Scene& scene) {
+  Scene copy = scene;  // a description can also write, so it asks for values it may change
+  Describer description;
+  describe(description, copy);
+  return write_toml(description);
+}
+
+std::string scene_reference(std::string_view section) {
+  Scene scene;
+  scene.bodies.resize(1);
+  scene.insitu.ranges["<field>"] = {0, 1};
+  Describer description;
+  describe(description, scene);
+  return write_reference(description, section);
+}
+
+}  // namespace ejecta

@@ -1,0 +1,122 @@
+#pragma once
+/// Smoothing kernels, written once over a value type V (double or a vector of lanes). q = r/h >= 0. They are given
+/// without normalisation: W(r, h) = norm<Dim> / h^Dim value(q). Beyond the support everything is exactly zero.
+/// `slope_over_q` is W'(q)/q <= 0; the reciprocal of q is handed in because the pair loop has it at hand.
+#include <numbers>
+
+#include "base/simd.hpp"
+#include "scene/scene.hpp"
+
+namespace ejecta {
+
+namespace kernel_detail {
+/// max(a, 0) for a number or lane by lane.
+template <class V>
+inline V positive(V a) { return simd::max(a, V{}); }
+/// A constant as a number of the same precision as the lanes of V: literals would widen float lanes.
+template <class V>
+struct ScalarOf { using type = V; };
+template <>
+struct ScalarOf<simd::Double8> { using type = double; };
+template <>
+struct ScalarOf<simd::Float16> { using type = float; };
+template <class V>
+using Scalar = typename ScalarOf<V>::type;
+}  // namespace kernel_detail
+
+/// Cubic B-spline M4 [Monaghan 2005].
+struct CubicSpline {
+  static constexpr double support = 2;
+  template <int Dim>
+  static constexpr double norm = Dim == 2 ? 10 / (7 * std::numbers::pi) : 1 / std::numbers::pi;
+  template <class V>
+  static V value(V q) {
+    using S = kernel_detail::Scalar<V>;
+    const V a = kernel_detail::positive(S(2) - q), b = kernel_detail::positive(S(1) - q);
+    return S(0.25) * a * a * a - b * b * b;
+  }
+  template <class V>
+  static V slope_over_q(V q, V q_reciprocal) {
+    using S = kernel_detail::Scalar<V>;
+    const V a = kernel_detail::positive(S(2) - q), b = kernel_detail::positive(S(1) - q);
+    return (S(3) * b * b - S(0.75) * a * a) * q_reciprocal;
+  }
+};
+
+/// Quintic B-spline M6 [Monaghan 2005].
+struct QuinticSpline {
+  static constexpr double support = 3;
+  template <int Dim>
+  static constexpr double norm = Dim == 2 ? 7 / (478 * std::numbers::pi) : 1 / (120 * std::numbers::pi);
+  template <class V>
+  static V value(V q) {
+    using S = kernel_detail::Scalar<V>;
+    const V a = kernel_detail::positive(S(3) - q), b = kernel_detail::positive(S(2) - q),
+            c = kernel_detail::positive(S(1) - q);
+    return a * a * a * a * a - S(6) * (b * b * b * b * b) + S(15) * (c * c * c * c * c);
+  }
+  template <class V>
+  static V slope_over_q(V q, V q_reciprocal) {
+    using S = kernel_detail::Scalar<V>;
+    const V a = kernel_detail::positive(S(3) - q), b = kernel_detail::positive(S(2) - q),
+            c = kernel_detail::positive(S(1) - q);
+    return (S(30) * (b * b * b * b) - S(5) * (a * a * a * a) - S(75) * (c * c * c * c)) * q_reciprocal;
+  }
+};
+
+/// Wendland C2 scaled to support 2h [Dehnen & Aly 2012].
+struct WendlandC2 {
+  static constexpr double support = 2;
+  template <int Dim>
+  static constexpr double norm = Dim == 2 ? 7 / (4 * std::numbers::pi) : 21 / (16 * std::numbers::pi);
+  template <class V>
+  static V value(V q) {
+    using S = kernel_detail::Scalar<V>;
+    const V a = kernel_detail::positive(S(1) - S(0.5) * q);
+    return a * a * a * a * (S(1) + S(2) * q);
+  }
+  template <class V>
+  static V slope_over_q(V q, V) {
+    using S = kernel_detail::Scalar<V>;
+    const V a = kernel_detail::positive(S(1) - S(0.5) * q);
+    return S(-5) * a * a * a;
+  }
+};
+
+/// Wendland C4 scaled to support 2h [Dehnen & Aly 2012].
+struct WendlandC4 {
+  static constexpr double support = 2;
+  template <int Dim>
+  static constexpr double norm = Dim == 2 ? 9 / (4 * std::numbers::pi) : 495 / (256 * std::numbers::pi);
+  template <class V>
+  static V value(V q) {
+    using S = kernel_detail::Scalar<V>;
+    const V a = kernel_detail::positive(S(1) - S(0.5) * q);
+    return a * a * a * a * a * a * (S(1) + S(3) * q + S(35.0 / 12) * q * q);
+  }
+  template <class V>
+  static V slope_over_q(V q, V) {
+    using S = kernel_detail::Scalar<V>;
+    const V a = kernel_detail::positive(S(1) - S(0.5) * q);
+    return S(-14.0 / 3) * (S(1) + S(2.5) * q) * a * a * a * a * a;
+  }
+};
+
+/// Calls f with the kernel struct that the name stands for.
+template <class F>
+decltype(auto) with_kernel(Kernel kernel, F&& f) {
+  switch (kernel) {
+    case Kernel::cubic_spline: return f(CubicSpline{});
+    case Kernel::quintic_spline: return f(QuinticSpline{});
+    case Kernel::wendland_c2: return f(WendlandC2{});
+    case Kernel::wendland_c4: break;
+  }
+  return f(WendlandC4{});
+}
+
+/// Support radius of a kernel in units of h.
+inline double kernel_support(Kernel kernel) {
+  return with_kernel(kernel, [](auto k) { return decltype(k)::support; });
+}
+
+}  // namespace ejecta

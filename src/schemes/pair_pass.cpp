@@ -1,0 +1,19 @@
+#include "schemes/pair_pass.hpp"
+
+#include "schemes/kernels.hpp"
+
+namespace ejecta {
+
+/// Defined in pair_pass_<kernel>_<dim>d.cpp, one file each so that they compile side by side.
+template <int Dim, class K>
+std::unique_ptr<PairPass<Dim>> make_pair_pass_of(const PairPassSettings& settings);
+
+template <int Dim>
+std::unique_ptr<PairPass<Dim>> make_pair_pass(const PairPassSettings& settings) {
+  return with_kernel(settings.kernel, [&](auto kernel) { return make_pair_pass_of<Dim, decltype(kernel)>(settings); });
+}
+
+template std::unique_ptr<PairPass<2>> make_pair_pass<2>(const PairPassSettings&);
+template std::unique_ptr<PairPass<3>> make_pair_pass<3>(const PairPassSettings&);
+
+}  // namespace ejecta

@@ -1,0 +1,44 @@
+#pragma once
+/// What a particle shows to its partners in a pair pass, packed into one contiguous record per particle and image.
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "particles/boundary_images.hpp"
+#include "particles/particles.hpp"
+
+namespace ejecta {
+
+/// Places within a record. T is the precision of the pass. Lengths are in units of a power of two near the particle
+/// spacing, so that single precision neither over- nor underflows; everything else is SI.
+/// In single precision a position is the sum of two floats, and differences of positions carry full relative precision.
+template <class T, int Dim, bool Stress>
+struct PairRecord {
+  static constexpr bool split = sizeof(T) == sizeof(float);
+  static constexpr int stresses = Stress ? Dim * (Dim + 1) / 2 : 1;
+  static constexpr int x = 0;
+  static constexpr int x_low = x + Dim;                        ///< only if split
+  static constexpr int v = x_low + (split ? Dim : 0);          ///< velocity
+  static constexpr int h = v + Dim;
+  static constexpr int h_reciprocal = h + 1;                   ///< 1/h
+  static constexpr int slope_norm = h_reciprocal + 1;          ///< norm / h^(Dim+2)
+  static constexpr int mass = slope_norm + 1;                  ///< m / unit^Dim
+  static constexpr int density_reciprocal = mass + 1;          ///< 1/rho
+  static constexpr int sound_speed = density_reciprocal + 1;
+  static constexpr int shear_switch = sound_speed + 1;
+  /// sigma/rho^2 with sigma = -P I + S: xx yy xy | xx yy zz xy xz yz; or -P/rho^2 alone
+  static constexpr int stress = shear_switch + 1;
+  static constexpr int size = stress + stresses;
+};
+
+/// The power of two just below the length.
+double power_of_two_below(double length);
+
+/// Fills one record for each particle, then one for each image. `length_unit` [m] is the unit above.
+/// reads position, velocity, smoothing_length, mass, density, pressure, sound_speed, and where they exist shear_switch,
+/// deviatoric_stress and the fraction of it that damage leaves, `intact` (empty: all of it).
+template <class T, int Dim, bool Stress>
+void pack_records(const Particles<Dim>& particles, const std::vector<Image>& images, const Boundary& boundary,
+                  double kernel_norm, double length_unit, std::span<const double> intact, std::vector<T>& records);
+
+}  // namespace ejecta

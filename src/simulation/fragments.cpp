@@ -1,0 +1,316 @@
+#include "simulation/fragments.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <utility>
+
+namespace ejecta {
+
+namespace {
+
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
+  std::uint32_t root(std::uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  /// The lower index becomes the root, so the result does not depend on the order of the calls.
+  void join(std::uint32_t i, std::uint32_t j) {
+    const std::uint32_t a = root(i), b = root(j);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+/// A cell of one of the grids; `level` counts octaves of particle size.
+struct Cell {
+  int level;
+  std::array<std::int64_t, 3> index;
+};
+
+/// Particles sorted into hashed cells. Two cells may share a bucket: that only costs a distance check.
+class HashedCells {
+ public:
+  HashedCells(const std::vector<std::uint32_t>& members, const std::vector<Cell>& cell_of)
+      : mask_(std::bit_ceil(members.size() + 1) - 1), start_(mask_ + 2, 0), sorted_(members.size()) {
+    for (const std::uint32_t i : members) ++start_[bucket(cell_of[i]) + 1];
+    std::partial_sum(start_.begin(), start_.end(), start_.begin());
+    std::vector<std::uint32_t> next(start_.begin(), start_.end() - 1);
+    for (const std::uint32_t i : members) sorted_[next[bucket(cell_of[i])]++] = i;
+  }
+  std::span<const std::uint32_t> at(const Cell& cell) const {
+    const std::size_t b = bucket(cell);
+    return {sorted_.data() + start_[b], start_[b + 1] - start_[b]};
+  }
+
+ private:
+  std::size_t bucket(const Cell& cell) const {
+    std::uint64_t hash = static_cast<std::uint64_t>(cell.level);
+    for (const std::int64_t index : cell.index) {  // multiply and rotate by odd constants spreads neighbours apart
+      hash = (hash ^ static_cast<std::uint64_t>(index)) * 0x9E3779B97F4A7C15ull;
+      hash = std::rotl(hash, 29);
+    }
+    return static_cast<std::size_t>(hash ^ (hash >> 32)) & mask_;
+  }
+  std::size_t mask_;
+  std::vector<std::uint32_t> start_, sorted_;
+};
+
+double particle_size(const FragmentInput& in, std::size_t i) {
+  const double volume = in.mass[i] / in.density[i];
+  return in.dimension() == 2 ? std::sqrt(volume) : std::cbrt(volume);
+}
+
+Vec<3> vector_at(const std::array<std::span<const double>, 3>& columns, std::size_t i) {
+  return {columns[0][i], columns[1][i], columns[2].empty() ? 0.0 : columns[2][i]};
+}
+
+/// Joins all friends among `members`. Each particle looks into the grids of its own and of larger octaves, whose cells
+/// are at least as wide as any link between the two.
+void join_friends(const FragmentInput& in, const std::vector<std::uint32_t>& members, double b, DisjointSets& sets) {
+  std::vector<double> size(in.size());
+  std::vector<Cell> cell_of(in.size());
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const std::uint32_t i : members) smallest = std::min(smallest, size[i] = particle_size(in, i));
+
+  const auto cell_in = [&](std::size_t i, int level) {
+    // Beyond this many cells neighbours can no longer be told apart in double precision anyway.
+    constexpr double far = 1e15;
+    const double width = std::ldexp(b * smallest, level + 1);
+    Cell cell{level, {0, 0, 0}};
+    for (int a = 0; a < in.dimension(); ++a) {
+      const double place = std::floor(in.position[a][i] / width);
+      cell.index[a] = static_cast<std::int64_t>(place > -far ? std::min(place, far) : -far);  // NaN goes to -far
+    }
+    return cell;
+  };
+  std::vector<int> levels;
+  for (const std::uint32_t i : members) {
+    const int level = std::ilogb(size[i] / smallest);
+    cell_of[i] = cell_in(i, level);
+    levels.push_back(level);
+  }
+  std::sort(levels.begin(), levels.end());
+  levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
+
+  const HashedCells cells(members, cell_of);
+  const int depth = in.dimension() == 3 ? 1 : 0;
+  for (const std::uint32_t i : members) {
+    const Vec<3> x = vector_at(in.position, i);
+    for (auto level = std::lower_bound(levels.begin(), levels.end(), cell_of[i].level); level != levels.end();
+         ++level) {
+      const Cell home = cell_in(i, *level);
+      for (int dz = -depth; dz <= depth; ++dz)
+        for (int dy = -1; dy <= 1; ++dy)
+          for (int dx = -1; dx <= 1; ++dx)
+            for (const std::uint32_t j :
+                 cells.at({*level, {home.index[0] + dx, home.index[1] + dy, home.index[2] + dz}})) {
+              if (j <= i && *level == cell_of[i].level) continue;  // seen from j
+              const double link = 0.5 * b * (size[i] + size[j]);
+              if ((vector_at(in.position, j) - x).squaredNorm() < link * link) sets.join(i, j);
+            }
+    }
+  }
+}
+
+Carried carried_by(const FragmentInput& in, std::size_t i) {
+  const Vec<3> momentum = in.mass[i] * vector_at(in.velocity, i);
+  return {1, in.mass[i], momentum, vector_at(in.position, i).cross(momentum)};
+}
+
+void add_mass(std::vector<double>& by_label, std::int32_t label, double mass) {
+  if (by_label.size() <= static_cast<std::size_t>(label)) by_label.resize(static_cast<std::size_t>(label) + 1, 0.0);
+  by_label[static_cast<std::size_t>(label)] += mass;
+}
+
+/// Second moments of a fragment about its centre of mass.
+struct SecondMoments {
+  Mat<3> points = Mat<3>::Zero();            ///< sum m r r^T, kg m^2
+  double inner = 0;                          ///< sum m d^2 / 12: what the particles' own extent adds to each axis
+  Vec<3> angular_momentum = Vec<3>::Zero();  ///< about the centre
+};
+
+/// Spin and axes. Directions without inertia (a line of particles about itself) have no spin.
+void add_shape(Fragment& fragment, const SecondMoments& moments, int dimension) {
+  const Mat<3> inertia = moments.points.trace() * Mat<3>::Identity() - moments.points;
+  const Eigen::SelfAdjointEigenSolver<Mat<3>> turning(inertia);
+  fragment.spin.setZero();
+  for (int a = 0; a < 3; ++a) {
+    const Vec<3> axis = turning.eigenvectors().col(a);
+    if (const double about = turning.eigenvalues()[a]; about > 1e-12 * turning.eigenvalues()[2])
+      fragment.spin += axis * (axis.dot(moments.angular_momentum) / about);
+  }
+  // A uniform ellipsoid has second moments M a^2 / 5, an ellipse M a^2 / 4.
+  const double ratio = dimension == 3 ? 5 : 4;
+  const Eigen::SelfAdjointEigenSolver<Mat<3>> extent(moments.points);
+  for (int a = 0; a < 3; ++a) {
+    const double second = std::max(0.0, extent.eigenvalues()[2 - a]) + moments.inner;
+    fragment.semi_axes[a] = a < dimension ? std::sqrt(ratio * second / fragment.carried.mass) : 0.0;
+  }
+}
+
+}  // namespace
+
+Carried& Carried::operator+=(const Carried& other) {
+  particles += other.particles;
+  mass += other.mass;
+  momentum += other.momentum;
+  angular_momentum += other.angular_momentum;
+  return *this;
+}
+
+std::vector<std::int32_t> find_groups(const FragmentInput& in, const FragmentSettings& settings) {
+  std::vector<std::uint32_t> members;
+  for (std::size_t i = 0; i < in.size(); ++i)
+    if ((in.damage.empty() || in.damage[i] < settings.damage_threshold) && std::isnormal(particle_size(in, i)))
+      members.push_back(static_cast<std::uint32_t>(i));
+  DisjointSets sets(in.size());
+  if (!members.empty()) join_friends(in, members, settings.linking_length, sets);
+
+  struct Group {
+    std::uint32_t root;
+    std::size_t particles;
+    double mass;
+    std::int32_t lowest_id;
+  };
+  std::vector<Group> groups;
+  std::vector<std::int32_t> group_of(in.size(), -1);  // by root, then by particle
+  for (const std::uint32_t i : members) {
+    const std::uint32_t root = sets.root(i);  // the root is the lowest member, so it is met first
+    if (root == i) {
+      group_of[i] = static_cast<std::int32_t>(groups.size());
+      groups.push_back({i, 0, 0.0, in.id[i]});
+    }
+    group_of[i] = group_of[root];
+    Group& group = groups[static_cast<std::size_t>(group_of[i])];
+    ++group.particles;
+    group.mass += in.mass[i];
+    group.lowest_id = std::min(group.lowest_id, in.id[i]);
+  }
+  std::vector<std::size_t> order(groups.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return groups[a].mass != groups[b].mass ? groups[a].mass > groups[b].mass
+                                            : groups[a].lowest_id < groups[b].lowest_id;
+  });
+  std::vector<std::int32_t> rank(groups.size(), 0);
+  std::int32_t next = 0;
+  for (const std::size_t g : order)
+    if (groups[g].particles >= static_cast<std::size_t>(std::max(1, settings.min_particles))) rank[g] = ++next;
+  for (std::int32_t& g : group_of) g = g < 0 ? 0 : rank[static_cast<std::size_t>(g)];
+  return group_of;
+}
+
+FragmentTable describe_groups(const FragmentInput& in, std::vector<std::int32_t> number) {
+  FragmentTable table;
+  const std::int32_t groups = number.empty() ? 0 : *std::max_element(number.begin(), number.end());
+  table.fragments.resize(static_cast<std::size_t>(groups));
+  std::vector<Vec<3>> mass_moment(table.fragments.size(), Vec<3>::Zero());
+  for (std::size_t i = 0; i < in.size(); ++i) {
+    if (number[i] == 0) {
+      table.dust += carried_by(in, i);
+      continue;
+    }
+    const std::size_t g = static_cast<std::size_t>(number[i] - 1);
+    Fragment& fragment = table.fragments[g];
+    fragment.carried += carried_by(in, i);
+    mass_moment[g] += in.mass[i] * vector_at(in.position, i);
+    add_mass(fragment.mass_by_body, in.body[i], in.mass[i]);
+    add_mass(fragment.mass_by_material, in.material[i], in.mass[i]);
+    fragment.mean_damage += in.damage.empty() ? 0 : in.mass[i] * in.damage[i];
+    if (!in.distension.empty()) fragment.mean_distension += in.mass[i] * (in.distension[i] - 1);
+  }
+  for (std::size_t g = 0; g < table.fragments.size(); ++g) {
+    Fragment& fragment = table.fragments[g];
+    const double mass = fragment.carried.mass;
+    fragment.number = static_cast<std::int32_t>(g + 1);
+    fragment.centre = mass_moment[g] / mass;
+    fragment.velocity = fragment.carried.momentum / mass;
+    fragment.mean_damage /= mass;
+    fragment.mean_distension = 1 + (fragment.mean_distension - 1) / mass;
+  }
+  // Second moments about the centres in a second pass: far from the origin the parallel-axis theorem would cancel.
+  std::vector<SecondMoments> moments(table.fragments.size());
+  for (std::size_t i = 0; i < in.size(); ++i) {
+    if (number[i] == 0) continue;
+    const std::size_t g = static_cast<std::size_t>(number[i] - 1);
+    const Vec<3> r = vector_at(in.position, i) - table.fragments[g].centre;
+    const Vec<3> v = vector_at(in.velocity, i) - table.fragments[g].velocity;
+    const double d = particle_size(in, i);
+    moments[g].points += in.mass[i] * r * r.transpose();
+    moments[g].inner += in.mass[i] * d * d / 12;
+    moments[g].angular_momentum += in.mass[i] * r.cross(v);
+  }
+  for (std::size_t g = 0; g < moments.size(); ++g) add_shape(table.fragments[g], moments[g], in.dimension());
+  table.number = std::move(number);
+  return table;
+}
+
+FragmentTable FragmentTracker::update(const FragmentInput& in, const FragmentSettings& settings) {
+  FragmentTable table = describe_groups(in, find_groups(in, settings));
+  const std::vector<std::int32_t> stable = stable_numbers(in, table);
+  for (std::size_t g = 0; g < stable.size(); ++g) table.fragments[g].number = stable[g];
+  for (std::int32_t& number : table.number)
+    if (number != 0) number = stable[static_cast<std::size_t>(number - 1)];
+  restore(in.id, table.number, last_number_);
+  return table;
+}
+
+std::vector<std::int32_t> FragmentTracker::stable_numbers(const FragmentInput& in, const FragmentTable& table) {
+  std::map<std::pair<std::int32_t, std::int32_t>, double> shared;  // (old number, new group) -> mass
+  for (std::size_t i = 0; i < in.size(); ++i) {
+    if (table.number[i] == 0) continue;
+    if (const auto old = number_of_id_.find(in.id[i]); old != number_of_id_.end())
+      shared[{old->second, table.number[i]}] += in.mass[i];
+  }
+  std::vector<std::pair<std::pair<std::int32_t, std::int32_t>, double>> by_mass(shared.begin(), shared.end());
+  std::stable_sort(by_mass.begin(), by_mass.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+
+  std::vector<std::int32_t> number(table.fragments.size(), 0);
+  std::vector<bool> taken(static_cast<std::size_t>(last_number_) + 1, false);
+  for (const auto& [pair, mass] : by_mass) {
+    const auto [old, group] = pair;
+    if (taken[static_cast<std::size_t>(old)] || number[static_cast<std::size_t>(group - 1)] != 0) continue;
+    taken[static_cast<std::size_t>(old)] = true;
+    number[static_cast<std::size_t>(group - 1)] = old;
+  }
+  for (std::int32_t& n : number)
+    if (n == 0) n = ++last_number_;
+  return number;
+}
+
+void FragmentTracker::restore(std::span<const std::int32_t> id, std::span<const std::int32_t> number,
+                              std::int32_t last_number) {
+  last_number_ = last_number;
+  number_of_id_.clear();
+  for (std::size_t i = 0; i < id.size(); ++i) {
+    if (number[i] == 0) continue;
+    number_of_id_[id[i]] = number[i];
+    last_number_ = std::max(last_number_, number[i]);
+  }
+}
+
+std::array<FragmentSensitivity, 3> fragment_sensitivity(const FragmentInput& in, const FragmentSettings& settings) {
+  const double total = std::accumulate(in.mass.begin(), in.mass.end(), 0.0);
+  std::array<FragmentSensitivity, 3> result{};
+  const std::array<double, 3> factors{0.8, 1.0, 1.25};
+  for (std::size_t k = 0; k < factors.size(); ++k) {
+    FragmentSettings changed = settings;
+    changed.linking_length *= factors[k];
+    const FragmentTable table = describe_groups(in, find_groups(in, changed));
+    result[k] = {changed.linking_length, table.fragments.size(),
+                 table.fragments.empty() ? 0 : table.fragments[0].carried.mass / total, table.dust.mass / total};
+  }
+  return result;
+}
+
+}  // namespace ejecta

@@ -1,0 +1,90 @@
+#pragma once
+/// Friends-of-friends fragments of the live particles: who belongs together, and what each piece carries away.
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "base/types.hpp"
+#include "scene/scene.hpp"
+
+namespace ejecta {
+
+/// The n particles as columns, SI. Three components in 3D; in plane strain (masses per metre) the third are empty.
+/// Every span holds n values; those marked optional may be empty.
+struct FragmentInput {
+  std::array<std::span<const double>, 3> position;   ///< m
+  std::array<std::span<const double>, 3> velocity;   ///< m/s
+  std::span<const double> mass, density;             ///< kg (kg/m in plane strain), kg/m^3
+  std::span<const double> damage, distension;        ///< 1; optional: counts as 0 and 1
+  std::span<const std::int32_t> id, body, material;  ///< >= 0; each particle has its own id
+
+  std::size_t size() const { return mass.size(); }
+  int dimension() const { return position[2].empty() ? 2 : 3; }
+};
+
+/// What any set of particles carries. Angular momentum is about the origin.
+struct Carried {
+  std::size_t particles = 0;
+  double mass = 0;                           ///< kg
+  Vec<3> momentum = Vec<3>::Zero();          ///< kg m/s
+  Vec<3> angular_momentum = Vec<3>::Zero();  ///< kg m^2/s
+  Carried& operator+=(const Carried& other);
+};
+
+struct Fragment {
+  std::int32_t number = 0;  ///< from 1; stable in time when a tracker numbers it
+  Carried carried;
+  std::vector<double> mass_by_body;      ///< kg, by body label
+  std::vector<double> mass_by_material;  ///< kg, by material label
+  Vec<3> centre, velocity;               ///< m, m/s: of the centre of mass
+  Vec<3> spin;                           ///< rad/s: of the rigid body with the same inertia and angular momentum
+  Vec<3> semi_axes;                      ///< m, descending: of the uniform ellipsoid (2D: ellipse) of the same inertia
+  double mean_damage = 0, mean_distension = 1;  ///< by mass
+};
+
+struct FragmentTable {
+  std::vector<Fragment> fragments;   ///< heaviest first
+  std::vector<std::int32_t> number;  ///< per particle: number of its fragment, 0 is dust
+  Carried dust;                      ///< everything in no fragment: fragments + dust = all particles
+};
+
+/// Group of every particle: 1, 2, ... heaviest first, 0 for dust. Two particles are friends if
+/// |x_ij| < b (d_i + d_j) / 2, d = (m / rho)^(1/dimension), b = settings.linking_length; particles damaged to
+/// settings.damage_threshold or beyond have no friends; groups below settings.min_particles are dust. Linear in n
+/// however far the particles fly apart, because cells are hashed and come in sizes: one grid per octave of d.
+std::vector<std::int32_t> find_groups(const FragmentInput& in, const FragmentSettings& settings);
+
+/// Adds up what every group carries; `number` holds the group of each particle as find_groups returns it.
+FragmentTable describe_groups(const FragmentInput& in, std::vector<std::int32_t> number);
+
+/// Numbers fragments so that a piece keeps its number from call to call: the pair of new group and old number that
+/// shares most mass is matched first; what matches nothing gets a number never used before.
+class FragmentTracker {
+ public:
+  /// find_groups, describe_groups and stable numbers. The heaviest fragment stays first in the table.
+  FragmentTable update(const FragmentInput& in, const FragmentSettings& settings);
+
+  /// Goes on from the numbers of a checkpoint: `number` (0 is dust) and `id` per particle, `last_number` as it was.
+  void restore(std::span<const std::int32_t> id, std::span<const std::int32_t> number, std::int32_t last_number);
+  std::int32_t last_number() const { return last_number_; }
+
+ private:
+  std::vector<std::int32_t> stable_numbers(const FragmentInput& in, const FragmentTable& table);
+
+  std::unordered_map<std::int32_t, std::int32_t> number_of_id_;  ///< of the previous call; dust left out
+  std::int32_t last_number_ = 0;
+};
+
+/// How the outcome depends on the linking length.
+struct FragmentSensitivity {
+  double linking_length;
+  std::size_t fragments;
+  double largest_mass_fraction, dust_mass_fraction;  ///< of the mass of all particles
+};
+/// At 0.8, 1 and 1.25 times settings.linking_length.
+std::array<FragmentSensitivity, 3> fragment_sensitivity(const FragmentInput& in, const FragmentSettings& settings);
+
+}  // namespace ejecta

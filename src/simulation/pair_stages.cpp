@@ -1,0 +1,117 @@
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.hpp"
+#include "simulation/stages.hpp"
+
+namespace ejecta {
+
+namespace {
+
+template <int Dim>
+Mat<Dim> velocity_gradient(const Particles<Dim>& p, std::size_t i) {
+  Mat<Dim> L;
+  for (int a = 0; a < Dim; ++a)
+    for (int b = 0; b < Dim; ++b) L(a, b) = p.column(Field::velocity_gradient, a * Dim + b)[i];
+  return L;
+}
+
+/// Magnitude of the curl [1/s].
+template <int Dim>
+double curl(const Mat<Dim>& L) {
+  if constexpr (Dim == 2) return std::abs(L(1, 0) - L(0, 1));
+  if constexpr (Dim == 3) return Vec<3>(L(2, 1) - L(1, 2), L(0, 2) - L(2, 0), L(1, 0) - L(0, 1)).norm();
+}
+
+/// Bounds on h relative to what a particle has in its undeformed material: solids must not reach out for neighbours
+/// that have flown away; a gas may follow its expansion.
+constexpr double least_relative_h = 0.25, gas_growth = 20;
+
+}  // namespace
+
+template <int Dim>
+void smoothing_lengths(Simulation<Dim>& sim) {
+  Particles<Dim>& p = sim.particles;
+  for (std::size_t m = 0; m < sim.materials.size(); ++m) {
+    const Material& material = sim.materials[m];
+    const Range range = p.material_ranges()[m];
+    const double most_relative_h = material.solid() ? sim.scene.numerics.smoothing_growth : gas_growth;
+    const double density0 = material.bulk_density();
+    parallel_for(range.begin, range.end, [&](std::size_t i) {
+      const double h0 = sim.scene.numerics.nodes_per_h * std::pow(p.column(Field::mass)[i] / density0, 1.0 / Dim);
+      double& h = p.column(Field::smoothing_length)[i];
+      h = std::clamp(h * sim.support->growth(p.column(Field::neighbour_sum)[i]), least_relative_h * h0,
+                     most_relative_h * h0);
+    });
+  }
+}
+
+template <int Dim>
+void summation_density(Simulation<Dim>& sim) {
+  // At the start the smoothing lengths are iterated to their fixed point; later one update a step keeps them there.
+  const int iterations = sim.clock.step == 0 ? 8 : 1;
+  for (int k = 0; k < iterations; ++k) {
+    sim.pass->density(sim.particles, sim.lists);
+    smoothing_lengths(sim);
+    if (sim.clock.step == 0) neighbours(sim);
+  }
+  if (sim.clock.step == 0) sim.pass->density(sim.particles, sim.lists);
+}
+
+template <int Dim>
+void pair_rates(Simulation<Dim>& sim) {
+  sim.pass->rates(sim.particles, sim.lists, sim.intact);
+}
+
+template <int Dim>
+void strain_rates(Simulation<Dim>& sim) {
+  Particles<Dim>& p = sim.particles;
+  const bool continuity = p.has(Field::density_rate);
+  for (std::size_t m = 0; m < sim.materials.size(); ++m) {
+    const Material& material = sim.materials[m];
+    const Range range = p.material_ranges()[m];
+    parallel_for(range.begin, range.end, [&](std::size_t i) {
+      const Mat<Dim> L = velocity_gradient(p, i);
+      const double compression = -L.trace();  // (1/rho) drho/dt
+      if (continuity) p.column(Field::density_rate)[i] = p.column(Field::density)[i] * compression;
+      if (!material.solid()) return;
+      double shear = material.elastic->shear_modulus, distension_rate = 0;
+      if (material.porosity) {
+        // S = S_s/alpha, and the solid sees the share f of the strain rate, with f = 1 + (rho/alpha) d(alpha)/d(rho):
+        // dS/dt = f 2G e'/alpha + (W S - S W) - S (d(alpha)/dt)/alpha   [Jutzi, Benz & Michel 2008, eqs 29-31]
+        const double f = p.column(Field::stress_factor)[i];
+        shear *= f / p.column(Field::distension)[i];
+        distension_rate = std::min(0.0, (f - 1) * compression);  // (1/alpha) d(alpha)/dt
+      }
+      Deviator<Dim> s;
+      for (int k = 0; k < deviator_size<Dim>; ++k) s[k] = p.column(Field::deviatoric_stress, k)[i];
+      const Deviator<Dim> rate = stress_rate<Dim>(L, s, shear) - distension_rate * s;
+      for (int k = 0; k < deviator_size<Dim>; ++k) p.column(Field::stress_rate, k)[i] = rate[k];
+    });
+  }
+}
+
+template <int Dim>
+void shear_switch(Simulation<Dim>& sim) {
+  // Balsara (1995): |div v| / (|div v| + |curl v| + 1e-4 c/h)
+  Particles<Dim>& p = sim.particles;
+  parallel_for(0, p.size(), [&](std::size_t i) {
+    const Mat<Dim> L = velocity_gradient(p, i);
+    const double divergence = std::abs(L.trace());
+    const double floor = 1e-4 * p.column(Field::sound_speed)[i] / p.column(Field::smoothing_length)[i];
+    p.column(Field::shear_switch)[i] = divergence / (divergence + curl<Dim>(L) + floor);
+  });
+}
+
+template void smoothing_lengths<2>(Simulation<2>&);
+template void smoothing_lengths<3>(Simulation<3>&);
+template void summation_density<2>(Simulation<2>&);
+template void summation_density<3>(Simulation<3>&);
+template void pair_rates<2>(Simulation<2>&);
+template void pair_rates<3>(Simulation<3>&);
+template void strain_rates<2>(Simulation<2>&);
+template void strain_rates<3>(Simulation<3>&);
+template void shear_switch<2>(Simulation<2>&);
+template void shear_switch<3>(Simulation<3>&);
+
+}  // namespace ejecta

@@ -1,0 +1,28 @@
+#pragma once
+/// Bodies as clouds of points: a lattice cut by a shape.
+#include <vector>
+
+#include "base/types.hpp"
+#include "scene/scene.hpp"
+
+namespace ejecta {
+
+template <int Dim>
+struct PointCloud {
+  std::vector<Vec<Dim>> points;  ///< m
+  double volume = 0;             ///< of one point's cell [m^3; m^2 in plane strain]
+};
+
+/// Particles of a body at about the given spacing [m] (edge of a cube of equal volume). The volumes of all points add up
+/// to that of the body: a box gets a whole number of cells along each edge, the cloud of a round shape is scaled.
+template <int Dim>
+PointCloud<Dim> fill(const Body& body, double spacing, Lattice lattice);
+
+/// Whether a point lies in the body.
+template <int Dim>
+bool inside(const Body& body, const Vec<Dim>& x);
+
+/// Volume of the body [m^3]; in plane strain its area [m^2].
+double volume(const Body& body, int dim);
+
+}  // namespace ejecta

@@ -1,0 +1,76 @@
+#include "simulation/stages.hpp"
+
+#include <algorithm>
+
+namespace ejecta {
+
+template <int Dim>
+std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Material>& materials) {
+  using enum Field;
+  auto any = [&](auto has) { return std::any_of(materials.begin(), materials.end(), has); };
+  const bool solid = any([](const Material& m) { return m.solid(); });
+  const bool porous = any([](const Material& m) { return m.porosity.has_value(); });
+  const bool breaks = any([](const Material& m) {
+    return m.damage.has_value() || (m.porosity && m.porosity->crush_damage && m.solid());
+  });
+  const bool grady_kipp = any([](const Material& m) { return m.damage.has_value(); });
+  const bool continuity = scene.numerics.density == DensityMethod::continuity;
+  const bool balsara = scene.numerics.balsara;
+  const bool gradient = solid || continuity || balsara;
+
+  std::vector<Stage<Dim>> stages;
+  auto add = [&](std::string name, std::vector<Field> reads, std::vector<Field> writes, void (*run)(Simulation<Dim>&)) {
+    stages.push_back({std::move(name), std::move(reads), std::move(writes), run});
+  };
+  auto extended = [](std::vector<Field> fields, bool condition, std::initializer_list<Field> more) {
+    if (condition) fields.insert(fields.end(), more);
+    return fields;
+  };
+
+  add("neighbours", {position, velocity, smoothing_length, mass}, {}, neighbours<Dim>);
+  if (!continuity)
+    add("density", {position, smoothing_length, mass}, {density, neighbour_sum, smoothing_length},
+        summation_density<Dim>);
+  add("equation of state", extended({density, specific_energy}, porous, {distension}),
+      extended({pressure, sound_speed}, porous, solid ? std::initializer_list<Field>{distension, stress_factor}
+                                                       : std::initializer_list<Field>{distension}),
+      equation_of_state<Dim>);
+  if (solid)
+    add("strength", extended({deviatoric_stress, pressure, specific_energy}, breaks, {Field::damage}),
+        {deviatoric_stress, plastic_strain}, strength<Dim>);
+  if (breaks)
+    add("damage", extended({pressure, deviatoric_stress}, grady_kipp, {crack, flaw_strain, flaw_exponent, flaw_count}),
+        extended({Field::damage, pressure}, grady_kipp, {crack_rate}), ejecta::damage<Dim>);
+  add("pair rates",
+      extended(extended({position, velocity, smoothing_length, mass, density, pressure, sound_speed}, solid,
+                        {deviatoric_stress}),
+               balsara, {Field::shear_switch}),
+      extended({acceleration, heating, neighbour_sum, approach_speed}, gradient, {velocity_gradient}), pair_rates<Dim>);
+  if (continuity || solid)
+    add("strain rates", extended({velocity_gradient, density}, solid, {deviatoric_stress}),
+        extended(extended({}, continuity, {density_rate}), solid, {stress_rate}), strain_rates<Dim>);
+  if (balsara)
+    add("shear switch", {velocity_gradient, sound_speed, smoothing_length}, {Field::shear_switch}, ejecta::shear_switch<Dim>);
+  if (continuity && scene.numerics.smoothing_growth > 1)
+    add("smoothing lengths", {neighbour_sum, smoothing_length, mass}, {smoothing_length}, smoothing_lengths<Dim>);
+  return stages;
+}
+
+template <int Dim>
+std::vector<Field> fields_of(const std::vector<Stage<Dim>>& stages) {
+  std::array<bool, field_count> named{};
+  for (const auto& stage : stages)
+    for (const auto* list : {&stage.reads, &stage.writes})
+      for (Field f : *list) named[static_cast<std::size_t>(f)] = true;
+  std::vector<Field> fields;
+  for (const FieldInfo& f : field_catalogue())
+    if (named[static_cast<std::size_t>(f.field)]) fields.push_back(f.field);
+  return fields;
+}
+
+template std::vector<Stage<2>> choose_stages<2>(const Scene&, const std::vector<Material>&);
+template std::vector<Stage<3>> choose_stages<3>(const Scene&, const std::vector<Material>&);
+template std::vector<Field> fields_of<2>(const std::vector<Stage<2>>&);
+template std::vector<Field> fields_of<3>(const std::vector<Stage<3>>&);
+
+}  // namespace ejecta

@@ -1,0 +1,47 @@
+#pragma once
+/// Which stages a scene needs, in order. To add physics: write the stage, name its fields, add one line here.
+#include "simulation/simulation.hpp"
+
+namespace ejecta {
+
+template <int Dim>
+std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Material>& materials);
+
+/// Every field a stage list names, in catalogue order.
+template <int Dim>
+std::vector<Field> fields_of(const std::vector<Stage<Dim>>& stages);
+
+// --- material_stages.cpp ---------------------------------------------------------------------------------------------
+/// Pressure and sound speed of every particle; with porosity the distension that goes with them.
+template <int Dim>
+void equation_of_state(Simulation<Dim>& sim);
+/// Brings the stress deviator back to the yield surface.
+template <int Dim>
+void strength(Simulation<Dim>& sim);
+/// Growth of cracks from the local strain, total damage, and what it leaves of tension.
+template <int Dim>
+void damage(Simulation<Dim>& sim);
+
+// --- pair_stages.cpp -------------------------------------------------------------------------------------------------
+/// Density by summation, with smoothing lengths that belong to it.
+template <int Dim>
+void summation_density(Simulation<Dim>& sim);
+/// Accelerations, heating and velocity gradients.
+template <int Dim>
+void pair_rates(Simulation<Dim>& sim);
+/// Rates of density and stress from the velocity gradient.
+template <int Dim>
+void strain_rates(Simulation<Dim>& sim);
+/// Balsara's switch for the viscosity of the next step.
+template <int Dim>
+void shear_switch(Simulation<Dim>& sim);
+/// Smoothing lengths for the next step.
+template <int Dim>
+void smoothing_lengths(Simulation<Dim>& sim);
+
+// --- neighbour_stage.cpp ---------------------------------------------------------------------------------------------
+/// Renews the pair lists if somebody has left its margin, and the order of the particles if it has worn out.
+template <int Dim>
+void neighbours(Simulation<Dim>& sim);
+
+}  // namespace ejecta

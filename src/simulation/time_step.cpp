@@ -1,0 +1,80 @@
+#include "simulation/time_step.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/errors.hpp"
+#include "base/parallel.hpp"
+
+namespace ejecta {
+
+template <int Dim>
+TimeStepVote vote_time_step(const Simulation<Dim>& sim) {
+  const Particles<Dim>& p = sim.particles;
+  const Numerics& numerics = sim.scene.numerics;
+  constexpr double never = std::numeric_limits<double>::infinity();
+  const auto h = p.column(Field::smoothing_length), sound = p.column(Field::sound_speed),
+             approach = p.column(Field::approach_speed);
+  const bool compresses = p.has(Field::density_rate);
+  // One pass over the particles finds the smallest; the reason is worked out for that particle alone.
+  auto courant = [&](std::size_t i) {
+    const double viscous = numerics.viscosity_alpha * sound[i] + numerics.viscosity_beta * approach[i];
+    return h[i] / (sound[i] + 0.6 * viscous);
+  };
+  auto acceleration = [&](std::size_t i) { return std::sqrt(h[i] / p.vector(Field::acceleration, i).norm()); };
+  auto compression = [&](std::size_t i) {
+    return compresses ? p.column(Field::density)[i] / std::abs(p.column(Field::density_rate)[i]) : never;
+  };
+  const IndexedMin least = parallel_min(
+      p.size(), never, [&](std::size_t i) { return std::min({courant(i), acceleration(i), compression(i)}); });
+  if (least.index == p.size()) return {never, "end of run", p.size()};
+  const std::string_view reason = least.value == courant(least.index)        ? "Courant condition"
+                                  : least.value == acceleration(least.index) ? "acceleration"
+                                                                             : "compression";
+  return {numerics.courant * least.value, reason, least.index};
+}
+
+template <int Dim>
+std::string describe_particle(const Simulation<Dim>& sim, std::size_t i) {
+  const Particles<Dim>& p = sim.particles;
+  auto components = [&](Field f) {
+    std::string text;
+    for (int a = 0; a < Dim; ++a) text += fmt::format("{}{:.6g}", a ? ", " : "", p.column(f, a)[i]);
+    return text;
+  };
+  const auto body = static_cast<std::size_t>(p.label(Label::body)[i]);
+  const auto material = static_cast<std::size_t>(p.label(Label::material)[i]);
+  return fmt::format(
+      "particle {} (body \"{}\", material \"{}\") at ({}) m, velocity ({}) m/s, density {:.6g} kg/m^3, specific energy "
+      "{:.6g} J/kg, smoothing length {:.6g} m",
+      p.label(Label::id)[i], sim.scene.bodies[body].name, sim.materials[material].name, components(Field::position),
+      components(Field::velocity), p.column(Field::density)[i], p.column(Field::specific_energy)[i],
+      p.column(Field::smoothing_length)[i]);
+}
+
+template <int Dim>
+void check_health(const Simulation<Dim>& sim, std::string_view stage) {
+  const Particles<Dim>& p = sim.particles;
+  auto healthy = [&](std::size_t i) {
+    double sum = p.column(Field::specific_energy)[i] + p.column(Field::density)[i];
+    for (int a = 0; a < Dim; ++a) sum += p.column(Field::position, a)[i] + p.column(Field::velocity, a)[i] +
+                                         p.column(Field::acceleration, a)[i];
+    return std::isfinite(sum) && p.column(Field::density)[i] > 0;
+  };
+  const IndexedMin worst = parallel_min(p.size(), 0.5, [&](std::size_t i) { return healthy(i) ? 1.0 : 0.0; });
+  if (worst.index == p.size()) return;
+  throw SimulationError(fmt::format("time {:.6g} s, step {}, after {}: state not finite or density not positive: {}",
+                                    sim.clock.time, sim.clock.step, stage, describe_particle(sim, worst.index)));
+}
+
+template TimeStepVote vote_time_step<2>(const Simulation<2>&);
+template void check_health<2>(const Simulation<2>&, std::string_view);
+template std::string describe_particle<2>(const Simulation<2>&, std::size_t);
+template TimeStepVote vote_time_step<3>(const Simulation<3>&);
+template void check_health<3>(const Simulation<3>&, std::string_view);
+template std::string describe_particle<3>(const Simulation<3>&, std::size_t);
+
+}  // namespace ejecta

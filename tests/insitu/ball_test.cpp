@@ -1,0 +1,122 @@
+/// A whole run of two frames through ParaView: the default pipelines, a user's script and a failing one.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "insitu/catalyst_bridge.hpp"
+#include "insitu/picture.hpp"
+#include "insitu/shattered_ball.hpp"
+
+namespace ejecta {
+namespace {
+
+void own_handler(int) {}
+
+class Ball : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder = fresh_folder("ball");
+    std::ofstream(folder + "/mine.py") << "# script-version: 2.0\n"
+                                          "from paraview.simple import *\n"
+                                          "from paraview import catalyst\n"
+                                          "particles = PVTrivialProducer(registrationName='particles')\n"
+                                          "view = CreateView('RenderView')\n"
+                                          "Show(particles, view).Representation = 'Points'\n"
+                                          "png = CreateExtractor('PNG', view, registrationName='PNG1')\n"
+                                          "png.Writer.FileName = 'mine_{timestep:06d}.png'\n"
+                                          "png.Writer.ImageResolution = [320, 240]\n"
+                                          "options = catalyst.Options()\n";
+    std::ofstream(folder + "/fails.py") << "# script-version: 2.0\n"
+                                           "from paraview import catalyst\n"
+                                           "options = catalyst.Options()\n"
+                                           "def catalyst_execute(info):\n"
+                                           "    raise ValueError('out of luck')\n";
+    std::vector<std::string> scripts = default_pipelines(true);
+    scripts.insert(scripts.begin(), {folder + "/fails.py", folder + "/mine.py"});
+    check_pipeline_scripts(scripts);
+    signal(SIGINT, own_handler);
+    const ShatteredBall young(3000, 20, 100, 0.1), old(3000, 20, 100, 0.3);
+    CatalystBridge bridge(scripts, young.settings(folder));
+    first = bridge.execute(0, 0, std::vector{young.particles(), young.slice(), young.fragments()});
+    second = bridge.execute(25, 30e-6, std::vector{old.particles(), old.slice(), old.fragments()});
+    repeated = bridge.execute(25, 30e-6, std::vector{old.particles(), old.slice(), old.fragments()});
+    failures = bridge.failures();
+  }
+
+  static std::string image(const std::string& file) { return folder + "/images/" + file; }
+
+  static inline std::string folder;
+  static inline FrameReport first, second, repeated;
+  static inline int failures = 0;
+};
+
+TEST_F(Ball, EveryViewHasAnImageEachFrame) {
+  const std::vector<std::string> expected{image("cutaway_000025.png"), image("fragments_000025.png"),
+                                          image("mine_000025.png"), image("slice_000025.png")};
+  EXPECT_EQ(second.images, expected);
+  EXPECT_EQ(first.images.size(), 4u);
+  EXPECT_EQ(second.pipelines.size(), 5u);
+}
+
+TEST_F(Ball, ImagesHaveTheSceneSizeAndShowTheObjectWithinTheFrame) {
+  for (const char* view : {"cutaway", "fragments", "slice"})
+    for (const char* step : {"_000000.png", "_000025.png"}) {
+      SCOPED_TRACE(std::string(view) + step);
+      const Picture picture(image(view + std::string(step)));
+      EXPECT_EQ(picture.width, 960);
+      EXPECT_EQ(picture.height, 720);
+      EXPECT_GT(picture.colours(), 60u);
+      EXPECT_GT(picture.coloured_share(), 0.06);
+      EXPECT_TRUE(picture.corners_are_white());
+    }
+}
+
+TEST_F(Ball, FramesDifferButTheirColourBarsDoNot) {
+  const Picture a(image("slice_000000.png")), b(image("slice_000025.png"));
+  EXPECT_NE(a.pixels, b.pixels);
+  const auto below_panels = a.pixels.begin() + 220 * a.width;  // the bars, with their titles and numbers
+  EXPECT_TRUE(std::equal(a.pixels.begin(), below_panels, b.pixels.begin()));
+}
+
+TEST_F(Ball, TheTableOfImagesAgreesWithTheFolder) {
+  std::ifstream in(image("data.csv"));
+  std::string line;
+  std::getline(in, line);
+  EXPECT_EQ(line, "time,step,view,FILE");
+  int rows = 0;
+  while (std::getline(in, line)) {
+    ++rows;
+    EXPECT_TRUE(std::filesystem::exists(image(line.substr(line.rfind(',') + 1)))) << line;
+    EXPECT_TRUE(line.rfind("0,0,", 0) == 0 || line.rfind("3e-05,25,", 0) == 0) << line;
+  }
+  EXPECT_EQ(rows, 8);
+}
+
+TEST_F(Ball, AUsersExtractorWritesIntoTheRunFolder) {
+  const Picture picture(image("mine_000025.png"));
+  EXPECT_EQ(picture.width, 320);
+  EXPECT_EQ(picture.height, 240);
+}
+
+TEST_F(Ball, AFailingScriptIsReportedOnceAndTheOthersGoOn) {
+  ASSERT_EQ(first.warnings.size(), 1u);
+  EXPECT_EQ(first.warnings[0], folder + "/fails.py:5: ValueError: out of luck");
+  EXPECT_TRUE(second.warnings.empty());
+  EXPECT_EQ(failures, 2);
+  std::ostringstream log;
+  log << std::ifstream(folder + "/insitu.log").rdbuf();
+  EXPECT_NE(log.str().find("ValueError: out of luck"), std::string::npos);
+}
+
+TEST_F(Ball, AStepIsShownOnce) { EXPECT_TRUE(repeated.images.empty() && repeated.pipelines.empty()); }
+
+TEST_F(Ball, TheRunsSignalHandlersSurvive) {
+  struct sigaction now {};
+  sigaction(SIGINT, nullptr, &now);
+  EXPECT_EQ(now.sa_handler, own_handler);
+}
+
+}  // namespace
+}  // namespace ejecta

@@ -1,0 +1,69 @@
+/// A gas in the plane: no damage, no distension, no fragments, no ranges given by the scene.
+#include <gtest/gtest.h>
+
+#include "insitu/catalyst_bridge.hpp"
+#include "insitu/picture.hpp"
+
+namespace ejecta {
+namespace {
+
+TEST(Gas, TheDefaultPipelinesShowWhatThereIs) {
+  constexpr int columns = 100, rows = 10;
+  std::vector<double> x, y, zero, density, pressure, vx, vy, h;
+  for (int j = 0; j < rows; ++j)
+    for (int i = 0; i < columns; ++i) {
+      const double s = (i + 0.5) / columns;
+      x.push_back(s);
+      y.push_back((j + 0.5) / columns);
+      density.push_back(s < 0.5 ? 1 : 0.125);
+      pressure.push_back(s < 0.5 ? 1e5 : 1e4);
+      vx.push_back(200 * s);
+      vy.push_back(0);
+    }
+  zero.assign(x.size(), 0.0);
+  h.assign(x.size(), 0.013);
+  const std::vector<FieldView> fields{{"density", "kg/m^3", {density}},
+                                      {"pressure", "Pa", {pressure}},
+                                      {"velocity", "m/s", {vx, vy}},
+                                      {"smoothing_length", "m", {h}}};
+  Channel particles, slice;
+  particles.name = "particles";
+  particles.count = x.size();
+  particles.position = {x, y, zero};
+  particles.fields = fields;
+  slice.name = "slice";
+  slice.kind = ChannelKind::image;
+  slice.count = x.size();
+  slice.extent = {columns, rows, 1};
+  slice.spacing = {0.01, 0.01, 0.01};
+  slice.origin = {0.005, 0.005, 0};
+  slice.fields = fields;
+
+  PipelineSettings s;
+  s.run_folder = fresh_folder("gas");
+  s.dimension = 2;
+  s.view_center = {0.5, 0.05, 0};
+  s.view_size = 1.2;
+  s.time_end = 1e-3;
+  s.particle_radius = 0.006;
+  s.image_width = 800;
+  s.image_height = 500;
+  CatalystBridge bridge(default_pipelines(false), s);
+  const FrameReport report = bridge.execute(7, 5e-4, std::vector{particles, slice});
+  EXPECT_TRUE(report.warnings.empty()) << report.warnings.front();
+  ASSERT_EQ(report.images.size(), 2u);
+  EXPECT_NE(report.images[0].find("particles_000007.png"), std::string::npos);
+  EXPECT_NE(report.images[1].find("slice_000007.png"), std::string::npos);
+  for (const std::string& path : report.images) {
+    SCOPED_TRACE(path);
+    const Picture picture(path);
+    EXPECT_EQ(picture.width, 800);
+    EXPECT_EQ(picture.height, 500);
+    EXPECT_GT(picture.colours(), 30u);
+    EXPECT_GT(picture.coloured_share(), 0.03);
+    EXPECT_TRUE(picture.corners_are_white());
+  }
+}
+
+}  // namespace
+}  // namespace ejecta

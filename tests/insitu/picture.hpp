@@ -1,0 +1,63 @@
+#pragma once
+/// Images read back, and what can be asked of them.
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPNGReader.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace ejecta {
+
+struct Picture {
+  int width = 0, height = 0;
+  std::vector<std::array<unsigned char, 3>> pixels;  ///< row by row, from the bottom
+
+  explicit Picture(const std::string& path) {
+    vtkNew<vtkPNGReader> reader;
+    reader->SetFileName(path.c_str());
+    reader->Update();
+    vtkImageData* image = reader->GetOutput();
+    width = image->GetDimensions()[0];
+    height = image->GetDimensions()[1];
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        const auto* p = static_cast<const unsigned char*>(image->GetScalarPointer(x, y, 0));
+        pixels.push_back({p[0], p[1], p[2]});
+      }
+  }
+
+  const std::array<unsigned char, 3>& at(int x, int y) const { return pixels[static_cast<std::size_t>(y * width + x)]; }
+
+  /// Number of different colours, counted with 4 bits a channel.
+  std::size_t colours() const {
+    std::set<int> seen;
+    for (const auto& p : pixels) seen.insert((p[0] >> 4) << 8 | (p[1] >> 4) << 4 | (p[2] >> 4));
+    return seen.size();
+  }
+  /// Share of the picture that is coloured, neither grey nor white.
+  double coloured_share() const {
+    std::size_t count = 0;
+    for (const auto& [r, g, b] : pixels) count += std::max({r, g, b}) - std::min({r, g, b}) > 40;
+    return static_cast<double>(count) / static_cast<double>(pixels.size());
+  }
+  bool corners_are_white() const {
+    const std::array<unsigned char, 3> white{255, 255, 255};
+    return at(0, 0) == white && at(width - 1, 0) == white && at(0, height - 1) == white &&
+           at(width - 1, height - 1) == white;
+  }
+};
+
+/// A new empty folder for a test, below the working directory.
+inline std::string fresh_folder(const std::string& name) {
+  const auto folder = std::filesystem::current_path() / "insitu_test_output" / name;
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  return folder.string();
+}
+
+}  // namespace ejecta

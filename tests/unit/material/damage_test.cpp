@@ -1,0 +1,164 @@
+#include "material/damage.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+#include <numeric>
+#include <random>
+#include <vector>
+
+namespace ejecta {
+namespace {
+
+constexpr GradyKipp basalt{8.5, 5e34};
+
+/// Kolmogorov-Smirnov distance of samples from the unit exponential distribution, times sqrt(n).
+double distance_from_exponential(std::vector<double> samples) {
+  std::sort(samples.begin(), samples.end());
+  const double n = static_cast<double>(samples.size());
+  double distance = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const double cdf = -std::expm1(-samples[i]), rank = static_cast<double>(i);
+    distance = std::max({distance, std::abs(cdf - rank / n), std::abs(cdf - (rank + 1) / n)});
+  }
+  return distance * std::sqrt(n);
+}
+
+/// k V eps^m, the expected number of flaws weaker than eps: exponentially distributed for the weakest one.
+double expected_weaker(const GradyKipp& model, double volume, double strain) {
+  return model.weibull_k * volume * std::pow(strain, model.weibull_m);
+}
+
+TEST(DrawFlaws, WeakestFlawOfParticleAndBodyFollowWeibull) {
+  const int bodies = 400, particles = 500;
+  const double body_volume = 1.13e-4, volume = body_volume / particles;
+  std::vector<double> of_particle, of_body;
+  for (int seed = 0; seed < bodies; ++seed) {
+    double weakest = 1e300;
+    for (int i = 0; i < particles; ++i) {
+      const Flaws f = draw_flaws(basalt, volume, particles, seed, i);
+      weakest = std::min(weakest, f.strain);
+      if (seed < 40) of_particle.push_back(expected_weaker(basalt, volume, f.strain));
+    }
+    of_body.push_back(expected_weaker(basalt, body_volume, weakest));
+  }
+  // 1.95 is exceeded by chance once in a thousand; the forced flaw of flawless particles shifts it by 0.56/N.
+  EXPECT_LT(distance_from_exponential(of_body), 1.95);
+  EXPECT_LT(distance_from_exponential(of_particle), 1.95);
+}
+
+/// Of n flaws uniform in (eps/eps_max)^m the strongest has -n ln((eps/eps_max)^m) exponentially distributed.
+TEST(DrawFlaws, StrongestFlawIsTheLargestOfItsCount) {
+  const double particles = 1e5, volume = 1e-9, mean = std::log(particles) + std::numbers::egamma;
+  std::vector<double> samples;
+  for (int i = 0; i < 40000; ++i) {
+    const Flaws f = draw_flaws(basalt, volume, particles, 3, i);
+    if (f.count < 2) continue;
+    const double strongest = f.strain * std::pow(f.count, 1 / f.exponent);
+    samples.push_back(-f.count * std::log(expected_weaker(basalt, volume, strongest) / mean));
+  }
+  EXPECT_LT(distance_from_exponential(samples), 1.95);
+}
+
+TEST(DrawFlaws, CountAndStrongestFlawAreThoseOfTheWholeTarget) {
+  const double particles = 1e5, volume = 1.13e-4 / particles, mean = std::log(particles) + std::numbers::egamma;
+  double count = 0, squares = 0, active = 0;
+  const int draws = 100000;
+  const double probe = std::pow(0.5 * mean / (basalt.weibull_k * volume), 1 / basalt.weibull_m);
+  for (int i = 0; i < draws; ++i) {
+    const Flaws f = draw_flaws(basalt, volume, particles, 42, i);
+    ASSERT_GE(f.count, 1);
+    count += f.count, squares += f.count * f.count;
+    active += active_flaws(probe, f);
+    if (f.count > 1) {  // the strongest flaw, where all are active, is weaker than the limit of the whole target
+      const double strongest = f.strain * std::pow(f.count, 1 / f.exponent);
+      ASSERT_LE(expected_weaker(basalt, volume, strongest), mean * (1 + 1e-9));
+    }
+  }
+  count /= draws;
+  EXPECT_NEAR(count, mean, 4 * std::sqrt(mean / draws));
+  EXPECT_NEAR(squares / draws - count * count, mean, 0.03 * mean);  // Poisson: variance = mean
+  EXPECT_NEAR(active / draws, 0.5 * mean, 0.1 * mean);              // three numbers stand for the whole list
+}
+
+/// The same mean number of flaws per particle as by dealing them one by one until every particle has one.
+TEST(DrawFlaws, AgreesWithDealing) {
+  const int particles = 300, bodies = 200;
+  std::mt19937_64 random(9);
+  std::uniform_int_distribution<int> any(0, particles - 1);
+  double dealt = 0, drawn = 0;
+  for (int body = 0; body < bodies; ++body) {
+    std::vector<bool> has(particles, false);
+    int missing = particles;
+    for (; missing > 0; ++dealt) {
+      const auto i = static_cast<std::size_t>(any(random));
+      missing -= !has[i];
+      has[i] = true;
+    }
+    for (int i = 0; i < particles; ++i) drawn += draw_flaws(basalt, 1e-9, particles, body, i).count;
+  }
+  EXPECT_NEAR(drawn / dealt, 1, 0.03);
+}
+
+TEST(DrawFlaws, DependsOnSeedAndKeyOnly) {
+  const int n = 20000;
+  std::vector<Flaws> forward, shuffled(n);
+  std::vector<int> order(n);
+  std::iota(order.begin(), order.end(), 0);
+  for (int i = 0; i < n; ++i) forward.push_back(draw_flaws(basalt, 1e-9, n, 5, i));
+  std::shuffle(order.begin(), order.end(), std::mt19937_64(1));
+  for (const int i : order) shuffled[i] = draw_flaws(basalt, 1e-9, n, 5, i);
+  double neighbours = 0, seeds = 0, variance = 0;
+  const auto deviate = [](const Flaws& f) { return expected_weaker(basalt, 1e-9, f.strain) - 1; };
+  for (int i = 0; i < n; ++i) {
+    ASSERT_EQ(forward[i].strain, shuffled[i].strain);
+    ASSERT_EQ(forward[i].exponent, shuffled[i].exponent);
+    ASSERT_EQ(forward[i].count, shuffled[i].count);
+    neighbours += deviate(forward[i]) * deviate(forward[(i + 1) % n]);
+    seeds += deviate(forward[i]) * deviate(draw_flaws(basalt, 1e-9, n, 6, i));
+    variance += deviate(forward[i]) * deviate(forward[i]);
+  }
+  EXPECT_LT(std::abs(neighbours / variance), 4 / std::sqrt(n));
+  EXPECT_LT(std::abs(seeds / variance), 4 / std::sqrt(n));
+}
+
+TEST(DrawFlaws, HugeConstantsDoNotOverflow) {
+  for (const GradyKipp& model : {GradyKipp{16, 1e61}, GradyKipp{16, 1e300}, GradyKipp{2.63, 6.52e11}})
+    for (const double volume : {1e-30, 1e-12, 1e9}) {
+      const Flaws f = draw_flaws(model, volume, 1e6, 1, 2);
+      EXPECT_TRUE(std::isfinite(f.strain) && f.strain > 0 && std::isfinite(f.exponent)) << volume;
+    }
+  // Measured basalt: weakest flaw of a 6 cm sphere near strain 2.7e-4 (14 MPa).
+  double weakest = 1;
+  for (int i = 0; i < 10000; ++i) weakest = std::min(weakest, draw_flaws({16, 1e61}, 1.131e-8, 1e4, 1, i).strain);
+  EXPECT_NEAR(weakest, 2.72e-4, 0.7e-4);
+}
+
+TEST(ActiveFlaws, RunFromNoneToAll) {
+  const Flaws f{1e-4, std::log(16.0) / std::log(4.0), 16};  // strongest at 4e-4
+  EXPECT_EQ(active_flaws(0.99e-4, f), 0);
+  EXPECT_EQ(active_flaws(0, f), 0);
+  EXPECT_DOUBLE_EQ(active_flaws(1e-4, f), 1);
+  EXPECT_NEAR(active_flaws(2e-4, f), 4, 1e-12);
+  EXPECT_NEAR(active_flaws(4e-4, f), 16, 1e-12);
+  EXPECT_EQ(active_flaws(1, f), 16);
+  const Flaws single{1e-4, 0, 1};
+  EXPECT_EQ(active_flaws(0.9e-4, single), 0);
+  EXPECT_EQ(active_flaws(1, single), 1);
+  EXPECT_DOUBLE_EQ(crack_limit(2, f), 0.5);
+  EXPECT_DOUBLE_EQ(crack_growth_rate(3, 1800, 1e-3), 5.4e6);
+}
+
+TEST(LocalStrain, OfSolidDamagedAndPorousBody) {
+  EXPECT_DOUBLE_EQ(local_strain(53.1e6, 0, 53.1e9, 1), 1e-3);
+  EXPECT_DOUBLE_EQ(local_strain(53.1e6, 0.5, 53.1e9, 1), 2e-3);
+  EXPECT_DOUBLE_EQ(local_strain(53.1e6, 0, 53.1e9, 3), 3e-3);
+  EXPECT_EQ(local_strain(-1e9, 0, 53.1e9, 3), 0);
+  EXPECT_EQ(local_strain(1e9, 1, 53.1e9, 3), 0);
+  EXPECT_DOUBLE_EQ(damaged_pressure(-10, 0.25), -7.5);
+  EXPECT_DOUBLE_EQ(damaged_pressure(10, 1), 10);
+}
+
+}  // namespace
+}  // namespace ejecta

@@ -1,0 +1,254 @@
+#include "material/material_reader.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "base/errors.hpp"
+#include "scene/scene_reader.hpp"
+
+namespace ejecta {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string library = std::string(EJECTA_SOURCE_DIR) + "/inputs/materials";
+
+std::vector<std::string> problems_of(const auto& action) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    return error.problems();
+  }
+  return {};
+}
+using One = std::vector<std::string>;
+
+/// Problems of a material given in the scene alone.
+std::vector<std::string> problems_of_text(const std::string& text) {
+  return problems_of([&] { read_material("m", {}, parse_document(text, "m.toml")); });
+}
+
+const std::string tillotson = R"([eos]
+model = "tillotson"
+density = "2.7 g/cm^3"
+a = 0.5
+b = 1.5
+A = "26.7 GPa"
+B = "26.7 GPa"
+E0 = "487 MJ/kg"
+E_iv = "4.72 MJ/kg"
+E_cv = "18.2 MJ/kg"
+alpha = 5
+beta = 5
+)";
+const std::string elastic = "[elastic]\nshear_modulus = \"22.7 GPa\"\nbulk_modulus = \"26.7 GPa\"\n";
+const std::string two_power = R"([porosity]
+model = "two_power"
+initial_distension = 3
+elastic_pressure = "1 MPa"
+transition_pressure = "68 MPa"
+solid_pressure = "213 MPa"
+reference_distension = 4.64
+transition_distension = 1.9
+n1 = 12
+n2 = 3
+)";
+
+std::string scene_text(const std::string& numerics = "", const std::string& body = "") {
+  return "[scene]\nname = \"x\"\n[resolution]\nspacing = \"1 mm\"\n[time]\nend = \"1 us\"\n" + numerics +
+         "[[bodies]]\nname = \"target\"\nmaterial = \"pumice\"\nradius = \"1 cm\"\n" + body;
+}
+
+TEST(ReadMaterial, BasaltInSi) {
+  const Material basalt = read_material("basalt", {library});
+  EXPECT_EQ(basalt.name, "basalt");
+  const Tillotson& eos = std::get<Tillotson>(basalt.eos);
+  EXPECT_EQ(eos.rho0, 2700);
+  EXPECT_EQ(eos.A, 26.7e9);
+  EXPECT_EQ(eos.E_iv, 4.72e6);
+  EXPECT_EQ(basalt.elastic->shear_modulus, 22.7e9);
+  EXPECT_EQ(std::get<VonMises>(*basalt.strength).yield_stress, 3.5e9);
+  EXPECT_EQ(basalt.melt_energy, 3.4e6);
+  EXPECT_EQ(basalt.damage->weibull_k, 5e34);
+  EXPECT_EQ(basalt.damage->crack_speed_factor, 0.4);
+  EXPECT_FALSE(basalt.porosity.has_value());
+}
+
+TEST(ReadMaterial, PumiceHasItsBulkDensityAndCrushCurve) {
+  const Material pumice = read_material("pumice", {library});
+  EXPECT_NEAR(pumice.bulk_density(), 700, 1e-9);
+  const CrushCurve& curve = pumice.porosity->curve;
+  EXPECT_EQ(curve.elastic_pressure, 1e6);
+  EXPECT_EQ(curve.solid_pressure, 213e6);
+  EXPECT_NEAR(curve.alpha(1e6 + 1e-3), 2.327 / 0.7, 1e-6);
+  EXPECT_TRUE(pumice.porosity->crush_damage);
+}
+
+TEST(ReadMaterial, GasHasNothingElse) {
+  const Material air = read_material("air", {library});
+  EXPECT_EQ(std::get<IdealGas>(air.eos).gamma, 1.4);
+  EXPECT_FALSE(air.solid() || air.strength || air.damage || air.porosity);
+}
+
+TEST(ReadMaterial, TheFirstFolderWins) {
+  const fs::path folder = fs::path(testing::TempDir()) / "ejecta_material_reader";
+  fs::create_directories(folder);
+  std::ofstream(folder / "basalt.toml") << tillotson;
+  EXPECT_FALSE(read_material("basalt", {folder.string(), library}).solid());
+  EXPECT_TRUE(read_material("granite", {folder.string(), library}).solid());
+  fs::remove_all(folder);
+}
+
+TEST(ReadMaterial, OverridesReplaceValues) {
+  const Document overrides =
+      parse_document("[porosity]\ninitial_distension = 2\n[strength]\nyield_stress = \"5 MPa\"\n", "s");
+  const Material pumice = read_material("pumice", {library}, overrides);
+  EXPECT_EQ(pumice.porosity->initial_distension(), 2);
+  EXPECT_EQ(std::get<VonMises>(*pumice.strength).yield_stress, 5e6);
+  EXPECT_EQ(pumice.porosity->curve.n1, 12);
+}
+
+TEST(ReadMaterial, AnotherModelReplacesTheSection) {
+  const Document overrides = parse_document(R"([porosity]
+model = "quadratic"
+initial_distension = 4
+elastic_pressure = "1 MPa"
+solid_pressure = "100 MPa"
+[damage]
+model = "none"
+[strength]
+model = "drucker_prager"
+cohesion = "1 MPa"
+friction_angle = "30 deg"
+)",
+                                            "s");
+  const Material pumice = read_material("pumice", {library}, overrides);
+  EXPECT_EQ(pumice.porosity->curve.alpha(100e6), 1);
+  EXPECT_EQ(pumice.porosity->initial_distension(), 4);
+  EXPECT_FALSE(pumice.damage.has_value());
+  EXPECT_NEAR(std::get<DruckerPrager>(*pumice.strength).friction_angle, 0.5235987755982988, 1e-15);
+}
+
+TEST(ReadMaterial, RefusesWithReason) {
+  EXPECT_EQ(problems_of([] {
+              read_material("unobtainium", {"a", "b"});
+            }),
+            One{"material \"unobtainium\": no such file: searched a/unobtainium.toml and b/unobtainium.toml"});
+  EXPECT_EQ(problems_of([] { read_material("basalt", {library}, parse_document("[eos]\nC = 3\n", "s.toml")); }),
+            One{"s.toml:2: eos.C: unknown key"});
+  EXPECT_EQ(problems_of_text("[eos]\nmodel = \"ideal_gas\"\ngamma = 1\ndensity = \"1 kg/m^3\"\n"),
+            One{"m.toml:3: eos.gamma: expected a number such as 1.5, > 1, got 1"});
+  EXPECT_EQ(problems_of_text("[eos]\nmodel = \"ideal_gas\"\ngamma = 1.4\n"),
+            One{"m.toml:1: eos.density: missing: of a body whose density the scene does not give"});
+  EXPECT_EQ(problems_of_text("[eos]\nmodel = \"jwl\"\ngamma = 1.4\n"),
+            One{"m.toml:2: eos.model: expected one of ideal_gas, tillotson, got \"jwl\""});
+  EXPECT_EQ(
+      problems_of_text(tillotson + "[damage]\nmodel = \"grady_kipp\"\nweibull_m = 9\nweibull_k = \"5e34 1/m^3\"\n"),
+      One{"m.toml:14: damage.model: needs section [elastic]"});
+  EXPECT_EQ(problems_of_text(tillotson + "[strength]\nmodel = \"von_mises\"\nyield_stress = \"1 GPa\"\n"),
+            One{"m.toml:14: strength.model: needs section [elastic]"});
+  EXPECT_EQ(problems_of_text(tillotson + "[damage]\nweibull_m = 9\n"),
+            One{"m.toml:13: damage.model: expected one of none, grady_kipp, got nothing"});
+  EXPECT_EQ(problems_of_text(tillotson + elastic +
+                             "[strength]\nmodel = \"lundborg\"\ncohesion = \"2 GPa\"\nfriction = 1\n"
+                             "limit = \"1 GPa\"\n"),
+            One{"m.toml:20: strength.limit: expected more than the cohesion (2 GPa)"});
+  EXPECT_EQ(
+      problems_of_text("[eos]\nmodel = \"ideal_gas\"\ngamma = 1.4\ndensity = \"1 kg/m^3\"\n" + elastic + two_power),
+      (One{"m.toml:5: elastic: an ideal gas has no moduli", "m.toml:9: porosity.model: an ideal gas has no pores"}));
+  const auto changed = [](std::string text, const std::string& from, const std::string& to) {
+    return problems_of_text(text.replace(text.find(from), from.size(), to));
+  };
+  EXPECT_EQ(changed(tillotson, "18.2", "4"), One{"m.toml:10: eos.E_cv: expected more than E_iv (4.72 MJ/kg)"});
+  EXPECT_EQ(changed(tillotson + two_power, "213", "0.5"),
+            One{"m.toml:18: porosity.solid_pressure: expected more than elastic_pressure (1 MPa)"});
+  EXPECT_EQ(changed(tillotson + two_power, "68", "300"),
+            One{"m.toml:17: porosity.transition_pressure: expected a pressure between elastic_pressure (1 MPa) and "
+                "solid_pressure (213 MPa)"});
+  EXPECT_EQ(changed(tillotson + two_power, "= 1.9", "= 5"),
+            One{"m.toml:20: porosity.transition_distension: expected less than reference_distension (4.64)"});
+  EXPECT_EQ(changed(tillotson + two_power, "initial_distension = 3", "initial_distension = 0.9"),
+            One{"m.toml:15: porosity.initial_distension: expected a number such as 1.5, >= 1, got 0.9"});
+}
+
+TEST(ReadMaterials, RefusesWhatBodiesCannotHave) {
+  const auto problems = [](const std::string& numerics, const std::string& body) {
+    return problems_of([&] { read_materials(parse_scene(scene_text(numerics, body), "s.toml"), library); });
+  };
+  EXPECT_EQ(problems("", ""), One{});
+  EXPECT_EQ(
+      problems("[numerics]\ndensity = \"summation\"\n", ""),
+      One{"s.toml: bodies.target: numerics.density: expected continuity, got summation: pumice is no gas, and a summed "
+          "density falls off at free surfaces"});
+  EXPECT_EQ(problems("", "pressure = \"1 Pa\"\n"),
+            One{"s.toml: bodies.target: pressure: only a gas can be given one, and pumice is none"});
+  EXPECT_EQ(problems("", "density = \"800 kg/m^3\"\n"), One{"s.toml: bodies.target: density: expected 700 kg/m^3, the "
+                                                            "bulk density of pumice, got 800 kg/m^3; to change it "
+                                                            "set materials.pumice.porosity.initial_distension"});
+}
+
+TEST(ReadMaterials, CollectsTheProblemsOfAll) {
+  const std::string second = "[[bodies]]\nname = \"b\"\nmaterial = \"unobtainium\"\nradius = \"1 cm\"\n";
+  const Scene scene = parse_scene(scene_text("", second), "s.toml", {"materials.pumice.eos.A=3"});
+  EXPECT_EQ(problems_of([&] { read_materials(scene, "lib"); }).size(), 2u);
+  EXPECT_EQ(
+      problems_of([&] { read_materials(parse_scene(scene_text(), "s.toml", {"materials.pumice.eos.A=3"}), library); }),
+      One{"--set materials.pumice.eos.A: eos.A: expected a pressure such as \"26.7 GPa\", got 3 (the unit is "
+          "missing)"});
+}
+
+TEST(ResolvedToml, RunsAgainWithoutTheMaterialFiles) {
+  for (const auto& entry : fs::directory_iterator(fs::path(EJECTA_SOURCE_DIR) / "inputs")) {
+    if (entry.path().extension() != ".toml") continue;
+    const Scene scene = read_scene(entry.path().string());
+    const Materials materials = read_materials(scene, library);
+    const std::string resolved = resolved_toml(scene, materials);
+    const Scene again = parse_scene(resolved, "resolved.toml");
+    EXPECT_EQ(resolved_toml(again, read_materials(again, "no/library")), resolved) << entry.path();
+  }
+}
+
+TEST(ShippedMaterials, AreAccepted) {
+  int count = 0;
+  for (const auto& entry : fs::directory_iterator(library)) {
+    const std::string name = entry.path().stem().string();
+    EXPECT_NO_THROW({ EXPECT_GT(read_material(name, {library}).bulk_density(), 0); }) << name;
+    ++count;
+  }
+  EXPECT_GE(count, 20);
+}
+
+TEST(ShippedMaterials, EchoEveryConstantTheyWereGiven) {
+  for (const auto& entry : fs::directory_iterator(library)) {
+    const std::string name = entry.path().stem().string();
+    std::string toml;
+    read_material(name, {library}, {}, &toml);
+    const Document echo = parse_document(toml, "echo");
+    for (const auto& [path, item] : read_document(entry.path().string()).items)
+      EXPECT_TRUE(echo.items.contains("materials." + name + "." + path)) << name << ": " << path;
+  }
+}
+
+TEST(Reference, NamesEveryConstantAndEveryModel) {
+  const std::string text = reference();
+  for (const std::string key :
+       {"gamma", "E_iv", "yield_stress", "friction_angle", "damaged_cohesion", "limit", "melt_energy", "weibull_k",
+        "crack_speed_factor", "transition_pressure", "n2", "crush_damage", "shear_modulus", "spacing", "frames"})
+    EXPECT_NE(text.find("\n  " + key + " "), std::string::npos) << key;
+  for (const std::string model : {"collins", "two_power", "quadratic", "ideal_gas", "grady_kipp"})
+    EXPECT_NE(text.find(": " + model), std::string::npos) << model;
+}
+
+TEST(Reference, OfOneSection) {
+  EXPECT_NE(reference("strength").find("lundborg"), std::string::npos);
+  EXPECT_EQ(reference("materials.strength"), reference("strength"));
+  EXPECT_EQ(reference("strength").find("weibull"), std::string::npos);
+  EXPECT_NE(reference("materials").find("weibull"), std::string::npos);
+  EXPECT_EQ(problems_of([] { reference("nonsense"); }),
+            One{"describe nonsense: no such section; without a name all are listed"});
+}
+
+}  // namespace
+}  // namespace ejecta

@@ -1,0 +1,96 @@
+#include "output/checkpoint.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "base/errors.hpp"
+#include "output/hdf5_file.hpp"
+
+namespace ejecta {
+namespace {
+
+namespace fs = std::filesystem;
+
+class CheckpointTest : public testing::Test {
+ protected:
+  CheckpointTest() {
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+    for (int i = 0; i < 1000; ++i) {
+      x.push_back(0.1 * i);
+      id.push_back(1000 - i);
+    }
+    view.time = 1.0 / 3;
+    view.dt = 1e-9;
+    view.step = 42;
+    view.scalars = {{"initial_energy", 2.5}};
+    view.scene = std::string(100000, '#') + "\nname = \"größe\"\n";
+    view.columns = {{"position_x", "m", x}, {"density", "kg/m^3", x}};
+    view.labels = {{"id", "1", id}};
+  }
+  fs::path folder = fs::path(testing::TempDir()) /
+                    (std::string("ejecta_checkpoint_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+  std::vector<double> x;
+  std::vector<std::int32_t> id;
+  CheckpointView view;
+};
+
+TEST_F(CheckpointTest, RoundTripIsBitwise) {
+  const fs::path file = folder / "a.h5";
+  write_checkpoint(file, view);
+  const Checkpoint back = read_checkpoint(file);
+  EXPECT_EQ(back.time, view.time);
+  EXPECT_EQ(back.dt, view.dt);
+  EXPECT_EQ(back.step, 42);
+  EXPECT_EQ(back.particles, 1000u);
+  EXPECT_EQ(back.scene, view.scene);
+  EXPECT_EQ(back.scalar("initial_energy"), 2.5);
+  EXPECT_EQ(back.column("position_x"), x);
+  EXPECT_EQ(back.label("id"), id);
+  EXPECT_EQ(Hdf5File(file, Hdf5File::Mode::read).unit("/columns/density"), "kg/m^3");
+  EXPECT_FALSE(fs::exists(folder / "a.h5.part"));
+}
+
+TEST_F(CheckpointTest, KeepsTheNewestTwo) {
+  EXPECT_FALSE(latest_checkpoint(folder / "checkpoints"));
+  for (const int step : {9, 10, 100}) {
+    view.step = step;
+    write_rotating_checkpoint(folder / "checkpoints", view);
+  }
+  std::size_t files = 0;
+  for ([[maybe_unused]] const auto& entry : fs::directory_iterator(folder / "checkpoints")) ++files;
+  EXPECT_EQ(files, 2u);
+  EXPECT_EQ(read_checkpoint(*latest_checkpoint(folder / "checkpoints")).step, 100);
+}
+
+TEST_F(CheckpointTest, NamesWhatIsWrong) {
+  const auto message = [](auto&& call) {
+    try {
+      call();
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  const fs::path file = folder / "b.h5";
+  write_checkpoint(file, view);
+  EXPECT_NE(message([&] { read_checkpoint(file).column("damage"); }).find("\"damage\""), std::string::npos);
+  fs::resize_file(file, fs::file_size(file) / 2);
+  EXPECT_NE(message([&] { read_checkpoint(file); }).find("truncated"), std::string::npos);
+  EXPECT_NE(message([&] { read_checkpoint(folder / "absent.h5"); }).find("missing"), std::string::npos);
+  std::ofstream(folder / "text.h5") << "no HDF5";
+  EXPECT_NE(message([&] { read_checkpoint(folder / "text.h5"); }).find("another format"), std::string::npos);
+  EXPECT_NE(message([&] { write_checkpoint(folder / "none" / "c.h5", view); }).find("cannot be written"),
+            std::string::npos);
+
+  id.pop_back();
+  view.labels = {{"id", "1", id}};
+  write_checkpoint(file, view);
+  EXPECT_NE(message([&] { read_checkpoint(file); }).find("holds 999 values"), std::string::npos);
+  Hdf5File(folder / "other.h5", Hdf5File::Mode::create).write_attribute("format", std::int64_t{77});
+  EXPECT_NE(message([&] { read_checkpoint(folder / "other.h5"); }).find("got 77"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace ejecta

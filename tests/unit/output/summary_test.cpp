@@ -1,0 +1,71 @@
+#include "output/summary.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "base/errors.hpp"
+
+namespace ejecta {
+namespace {
+
+TEST(Summary, HasExactlyThePromisedKeysInOrder) {
+  std::istringstream lines(summary_json({}));
+  std::vector<std::string> keys;
+  for (std::string line; std::getline(lines, line);)
+    if (line.starts_with("  \"")) keys.push_back(line.substr(3, line.find("\": ") - 3));
+  const std::vector<std::string> promised{"scene",
+                                          "dimension",
+                                          "scheme",
+                                          "precision",
+                                          "threads",
+                                          "particles",
+                                          "cells",
+                                          "steps",
+                                          "time_s",
+                                          "wall_s",
+                                          "particle_steps_per_s",
+                                          "pair_interactions_per_s",
+                                          "neighbours_mean",
+                                          "bytes_per_particle",
+                                          "peak_rss_mb",
+                                          "mass_error_rel",
+                                          "momentum_error_rel",
+                                          "energy_error_rel",
+                                          "images",
+                                          "insitu_share",
+                                          "insitu_bytes_written",
+                                          "full_dump_bytes_avoided",
+                                          "largest_fragment_mass_fraction",
+                                          "fragments",
+                                          "exit"};
+  EXPECT_EQ(keys, promised);
+}
+
+TEST(Summary, WritesValuesNullsAndEscapes) {
+  Summary s;
+  s.scene = "a \"b\"\\\n";
+  s.energy_error_rel = 0.1 + 0.2;
+  s.neighbours_mean = std::nan("");
+  s.fragments = 0;
+  s.exit = 3;
+  const auto file = std::filesystem::path(testing::TempDir()) / "ejecta_summary.json";
+  write_summary(file, s);
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  EXPECT_NE(text.str().find("\"scene\": \"a \\\"b\\\"\\\\\\u000a\","), std::string::npos);
+  EXPECT_NE(text.str().find("\"energy_error_rel\": 0.30000000000000004,"), std::string::npos);
+  EXPECT_NE(text.str().find("\"neighbours_mean\": null,"), std::string::npos);
+  EXPECT_NE(text.str().find("\"images\": null,"), std::string::npos);
+  EXPECT_NE(text.str().find("\"fragments\": 0,"), std::string::npos);
+  EXPECT_NE(text.str().find("\"exit\": 3\n}"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(file.string() + ".part"));
+  EXPECT_THROW(write_summary("/no_such_folder/summary.json", s), InputError);
+}
+
+}  // namespace
+}  // namespace ejecta

@@ -1,0 +1,72 @@
+#include "particles/boundary_images.hpp"
+
+#include <gtest/gtest.h>
+
+#include "unit/particles/cloud.hpp"
+
+namespace ejecta {
+namespace {
+
+Boundary unit_box(BoundaryKind kind) { return {{kind, kind, kind}, {0, 0, 0}, {1, 1, 1}}; }
+
+/// Positions of the images of one particle at x in the unit box.
+template <int Dim>
+std::vector<Vec<Dim>> images_of(const Vec<Dim>& x, const Boundary& boundary, double reach) {
+  auto p = random_cloud<Dim>(1, 1, 0.1, 0.1);
+  p.set_vector(Field::position, 0, x);
+  std::vector<Image> images;
+  make_images(p, boundary, reach, images);
+  std::vector<Vec<Dim>> places;
+  for (const Image& image : images) {
+    Vec<Dim> place;
+    for (int a = 0; a < Dim; ++a) place[a] = image_position(boundary, image, a, x[a]);
+    places.push_back(place);
+  }
+  return places;
+}
+
+template <int Dim>
+bool contains(const std::vector<Vec<Dim>>& places, const Vec<Dim>& x) {
+  return std::any_of(places.begin(), places.end(), [&](const Vec<Dim>& p) { return (p - x).norm() < 1e-14; });
+}
+
+TEST(BoundaryImages, OpenSpaceHasNone) {
+  EXPECT_FALSE(bounded(Boundary{}));
+  EXPECT_TRUE(images_of<3>({0.01, 0.01, 0.01}, Boundary{}, 0.1).empty());
+}
+
+TEST(BoundaryImages, NoneFarFromTheFaces) {
+  EXPECT_TRUE(images_of<3>({0.5, 0.5, 0.5}, unit_box(BoundaryKind::periodic), 0.1).empty());
+}
+
+TEST(BoundaryImages, APeriodicCornerHasImagesAtTheOtherCorners) {
+  const auto places = images_of<2>({0.01, 0.98}, unit_box(BoundaryKind::periodic), 0.1);
+  EXPECT_EQ(places.size(), 3u);
+  EXPECT_TRUE(contains<2>(places, {1.01, 0.98}));
+  EXPECT_TRUE(contains<2>(places, {0.01, -0.02}));
+  EXPECT_TRUE(contains<2>(places, {1.01, -0.02}));
+  EXPECT_EQ(images_of<3>({0.01, 0.98, 0.02}, unit_box(BoundaryKind::periodic), 0.1).size(), 7u);
+}
+
+TEST(BoundaryImages, AReflectingCornerMirrors) {
+  const auto places = images_of<2>({0.01, 0.98}, unit_box(BoundaryKind::reflecting), 0.1);
+  EXPECT_EQ(places.size(), 3u);
+  EXPECT_TRUE(contains<2>(places, {-0.01, 0.98}));
+  EXPECT_TRUE(contains<2>(places, {0.01, 1.02}));
+  EXPECT_TRUE(contains<2>(places, {-0.01, 1.02}));
+}
+
+TEST(BoundaryImages, LeaversOfAPeriodicBoxComeBackIn) {
+  const Boundary box{{BoundaryKind::periodic, BoundaryKind::open, BoundaryKind::open}, {0, 0, 0}, {1, 1, 1}};
+  auto p = random_cloud<2>(3, 2, 0.1, 0.1);
+  p.set_vector(Field::position, 0, Vec<2>(-0.25, -0.25));
+  p.set_vector(Field::position, 1, Vec<2>(1.25, 1.25));
+  p.set_vector(Field::position, 2, Vec<2>(1, 0.5));
+  wrap_positions(p, box);
+  EXPECT_EQ(p.vector(Field::position, 0), Vec<2>(0.75, -0.25));
+  EXPECT_EQ(p.vector(Field::position, 1), Vec<2>(0.25, 1.25));
+  EXPECT_EQ(p.vector(Field::position, 2), Vec<2>(0, 0.5));
+}
+
+}  // namespace
+}  // namespace ejecta

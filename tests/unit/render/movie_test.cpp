@@ -1,0 +1,68 @@
+#include "render/movie.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <fstream>
+#include <memory>
+
+#include "render/canvas.hpp"
+#include "render/process.hpp"
+
+namespace ejecta {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Number of frames that decode, and the pixel format, as "7,yuv420p".
+std::string decoded(const fs::path& movie) {
+  const std::string command =
+      "ffprobe -v error -count_frames -select_streams v:0 -show_entries "
+      "stream=pix_fmt,width,height,nb_read_frames -of csv=p=0 \"" +
+      movie.string() + '"';
+  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
+  char text[256] = {};
+  return fgets(text, sizeof text, pipe.get()) ? std::string(text) : std::string();
+}
+
+TEST(Movie, HasAFrameForEveryImageOfAView) {
+  const fs::path run = fs::path(testing::TempDir()) / "ejecta movie's run";  // awkward names must work
+  fs::remove_all(run);
+  fs::create_directories(run / "images");
+  std::ofstream data(run / "images/data.csv");
+  data << "time,view,FILE\n";
+  for (int k = 0; k < 13; ++k) {
+    Canvas canvas(101, 75, {0.9, 0.9, 0.95});  // odd sizes
+    canvas.fill({5.0 + 6 * k, 20, 20, 30}, {0.8, 0.2, 0.1});
+    const std::string name = "slice_" + std::to_string(k) + ".png";
+    canvas.save_png(run / "images" / name);
+    data << k << ",slice," << name << '\n';
+    if (k < 1) data << k << ",single," << name << '\n';
+  }
+  data << "13,slice,lost.png\n";
+  data.close();
+  const MovieReport report = make_movies(run);
+  ASSERT_EQ(report.movies.size(), 2u) << (report.problems.empty() ? "" : report.problems.back());
+  EXPECT_EQ(report.movies[0].file.filename(), "movie_slice.mp4");
+  EXPECT_EQ(report.movies[0].frames, 13u);
+  EXPECT_EQ(decoded(report.movies[0].file), "102,76,yuv420p,13\n");
+  EXPECT_EQ(decoded(report.movies[1].file), "102,76,yuv420p,1\n");
+  ASSERT_EQ(report.problems.size(), 1u);
+  EXPECT_NE(report.problems[0].find("lost.png"), std::string::npos);
+}
+
+TEST(Movie, AFolderWithoutImagesIsAProblemNotACrash) {
+  const MovieReport report = make_movies(fs::path(testing::TempDir()) / "no_such_run");
+  EXPECT_TRUE(report.movies.empty());
+  ASSERT_EQ(report.problems.size(), 1u);
+  EXPECT_NE(report.problems[0].find("data.csv"), std::string::npos);
+}
+
+TEST(Process, SaysWhyAProgramFailed) {
+  EXPECT_EQ(run_program({"true"}, "/"), "");
+  EXPECT_EQ(run_program({"no_such_program_at_all"}, "/"), "no_such_program_at_all is not installed");
+  EXPECT_EQ(run_program({"sh", "-c", "echo one; echo two >&2; exit 7"}, "/"), "sh failed with status 7: two");
+}
+
+}  // namespace
+}  // namespace ejecta

@@ -1,0 +1,158 @@
+#include "scene/scene_reader.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "scene/describe.hpp"
+#include "scene/names.hpp"
+#include "unit/scene/scene_text.hpp"
+
+namespace ejecta {
+namespace {
+
+TEST(ReadScene, ConvertsAndKeepsDefaults) {
+  const Scene scene = parse_scene(valid_scene, "s.toml");
+  EXPECT_EQ(scene.name, "test");
+  EXPECT_EQ(scene.file, "s.toml");
+  EXPECT_EQ(scene.spacing, 1e-3);
+  EXPECT_EQ(scene.time_end, 20e-6);
+  ASSERT_EQ(scene.bodies.size(), 2u);
+  EXPECT_EQ(scene.bodies[1].velocity, (Triple{0, -2580, 0}));
+  EXPECT_EQ(scene.bodies[1].center, (Triple{0, 0.04, 0}));
+  EXPECT_FALSE(is_set(scene.bodies[0].density));
+  EXPECT_EQ(scene.numerics.kernel, Kernel::wendland_c2);
+  EXPECT_EQ(scene.numerics.nodes_per_h, 1.3);
+}
+
+TEST(ReadScene, ReadsEveryKindOfValue) {
+  const Scene scene = parse_scene(valid_scene + R"(
+[numerics]
+kernel = "quintic_spline"
+precision = "mixed"
+balsara = true
+courant = 0.3
+[insitu]
+fields = ["mass", "id"]
+on_error = "abort"
+[insitu.ranges]
+pressure = ["-1 MPa", "2 GPa"]
+damage = [0, 1]
+[run]
+threads = 3
+[random]
+seed = 12345678901
+)",
+                                  "s.toml");
+  EXPECT_EQ(scene.numerics.kernel, Kernel::quintic_spline);
+  EXPECT_EQ(scene.numerics.precision, Precision::mixed);
+  EXPECT_TRUE(scene.numerics.balsara);
+  EXPECT_EQ(scene.insitu.fields, (std::vector<std::string>{"mass", "id"}));
+  EXPECT_EQ(scene.insitu.on_error, OnError::abort);
+  EXPECT_EQ(scene.insitu.ranges.at("pressure").min, -1e6);
+  EXPECT_EQ(scene.insitu.ranges.at("pressure").max, 2e9);
+  EXPECT_EQ(scene.insitu.ranges.size(), 2u);
+  EXPECT_EQ(scene.threads, 3);
+  EXPECT_EQ(scene.seed, 12345678901u);
+}
+
+TEST(Overrides, NeedNoQuotesAndReachWhatTheFileLeavesOut) {
+  const Scene scene = parse_scene(valid_scene, "s.toml",
+                                  {"time.end=30us", "insitu.enabled=false", "numerics.precision=mixed", "run.threads=2",
+                                   "resolution.spacing=0.8 mm", "scene.title=A \"title\"", "numerics.nodes_per_h=1.5",
+                                   "random.seed=7", "insitu.frames=9", "insitu.ranges.pressure=[0, \"1 MPa\"]"});
+  EXPECT_EQ(scene.time_end, 30e-6);
+  EXPECT_FALSE(scene.insitu.enabled);
+  EXPECT_EQ(scene.numerics.precision, Precision::mixed);
+  EXPECT_EQ(scene.threads, 2);
+  EXPECT_EQ(scene.spacing, 0.8e-3);
+  EXPECT_EQ(scene.title, "A \"title\"");
+  EXPECT_EQ(scene.numerics.nodes_per_h, 1.5);
+  EXPECT_EQ(scene.seed, 7u);
+  EXPECT_EQ(scene.insitu.frames, 9);
+  EXPECT_EQ(scene.insitu.ranges.at("pressure").max, 1e6);
+}
+
+TEST(Overrides, FindBodiesByIndexAndName) {
+  const Scene scene = parse_scene(
+      valid_scene, "s.toml",
+      {"bodies[0].radius=2cm", "bodies.projectile.velocity=0 -3 0 km/s", "bodies.target.velocity=[\"1 m/s\", 0, 0]"});
+  EXPECT_EQ(scene.bodies[0].radius, 0.02);
+  EXPECT_EQ(scene.bodies[1].velocity, (Triple{0, -3000, 0}));
+  EXPECT_EQ(scene.bodies[0].velocity, (Triple{1, 0, 0}));
+}
+
+TEST(Overrides, TheLastOneWins) {
+  EXPECT_EQ(parse_scene(valid_scene, "s.toml", {"time.end=1us", "time.end=2us"}).time_end, 2e-6);
+}
+
+TEST(Overrides, OfMaterialsAreKeptForTheMaterialReader) {
+  const Scene scene = parse_scene(valid_scene + "[materials.basalt.eos]\nA = \"20 GPa\"\n", "s.toml",
+                                  {"materials.nylon.strength.yield_stress=1 MPa"});
+  EXPECT_EQ(to_text(scene.materials.at("basalt").items.at("eos.A").literal), "\"20 GPa\"");
+  EXPECT_EQ(scene.materials.at("basalt").items.at("eos.A").origin.text, "s.toml:18");
+  EXPECT_EQ(scene.materials.at("nylon").items.at("strength.yield_stress").origin.text,
+            "--set materials.nylon.strength.yield_stress");
+}
+
+TEST(SceneToml, ReadsBackAsTheSameScene) {
+  for (const std::string& text :
+       {valid_scene,
+        valid_scene + "[insitu]\nfields = [\"id\"]\n[insitu.ranges]\npressure = [0.1, 0.30000000000000004]\n"}) {
+    const Scene scene =
+        parse_scene(text, "s.toml", {"scene.title=quo\"te \\ and tab\t", "bodies.target.center=0.1 0.2 0.3 um"});
+    const std::string echo = scene_toml(scene);
+    const Scene again = parse_scene(echo, "resolved.toml");
+    EXPECT_EQ(scene_toml(again), echo);
+    EXPECT_EQ(again.title, scene.title);
+    EXPECT_EQ(again.bodies[0].center, scene.bodies[0].center);
+    EXPECT_EQ(again.numerics.distension_tolerance, 1e-12);
+  }
+}
+
+TEST(SceneToml, HoldsDefaultsInSi) {
+  const std::string echo = scene_toml(parse_scene(valid_scene, "s.toml"));
+  EXPECT_NE(echo.find("\nspacing = \"0.001 m\"  #"), std::string::npos);
+  EXPECT_NE(echo.find("\nkernel = \"wendland_c2\"  #"), std::string::npos);
+  EXPECT_NE(echo.find("\n# density: not set;"), std::string::npos);
+}
+
+TEST(SceneReference, NamesEveryKeyOfTheEcho) {
+  Scene scene = parse_scene(valid_scene, "s.toml");
+  Describer description;
+  describe(description, scene);
+  const std::string reference = scene_reference();
+  for (const Setting& setting : description.settings())
+    EXPECT_NE(reference.find("\n  " + setting.key + " "), std::string::npos) << setting.path();
+}
+
+TEST(SceneReference, CanBeLimitedToOneSection) {
+  const std::string insitu = scene_reference("insitu");
+  EXPECT_NE(insitu.find("[insitu.ranges]"), std::string::npos);
+  EXPECT_NE(insitu.find("default 60"), std::string::npos);
+  EXPECT_EQ(insitu.find("[numerics]"), std::string::npos);
+  EXPECT_NE(scene_reference("bodies").find("[[bodies]]"), std::string::npos);
+  EXPECT_EQ(scene_reference("in"), "");
+}
+
+TEST(NameOf, GivesTheWordOfTheScene) {
+  EXPECT_EQ(name_of(Precision::double_precision), "double");
+  EXPECT_EQ(name_of(Kernel::wendland_c4), "wendland_c4");
+}
+
+TEST(ShippedScenes, AreAccepted) {
+  const std::filesystem::path inputs = std::filesystem::path(EJECTA_SOURCE_DIR) / "inputs";
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(inputs)) {
+    if (entry.path().extension() != ".toml") continue;
+    EXPECT_NO_THROW({
+      const Scene scene = read_scene(entry.path().string());
+      EXPECT_EQ(scene.name, entry.path().stem().string());
+    }) << entry.path();
+    ++count;
+  }
+  EXPECT_GE(count, 4);
+}
+
+}  // namespace
+}  // namespace ejecta

@@ -1,0 +1,246 @@
+#include "simulation/fragments.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+#include <set>
+
+namespace ejecta {
+namespace {
+
+/// Owns the columns of a hand-made cloud.
+struct Cloud {
+  std::array<std::vector<double>, 3> x, v;
+  std::vector<double> mass, density, damage;
+  std::vector<std::int32_t> id, body, material;
+  int dimension = 3;
+
+  void add(Vec<3> position, Vec<3> velocity, double m = 1.0, double d = 1.0, double damaged = 0.0, int label = 0) {
+    for (int a = 0; a < 3; ++a) {
+      x[a].push_back(position[a]);
+      v[a].push_back(velocity[a]);
+    }
+    mass.push_back(m);
+    density.push_back(m / std::pow(d, dimension));
+    damage.push_back(damaged);
+    id.push_back(static_cast<std::int32_t>(id.size()));
+    body.push_back(label);
+    material.push_back(label);
+  }
+  /// Lattice of unit spacing within `radius`, turning rigidly at `spin` about its centre.
+  void add_ball(Vec<3> centre, double radius, Vec<3> velocity, Vec<3> spin = Vec<3>::Zero(), int label = 0) {
+    const int n = static_cast<int>(radius) + 1, nz = dimension == 3 ? n : 0;
+    for (int k = -nz; k <= nz; ++k)
+      for (int j = -n; j <= n; ++j)
+        for (int i = -n; i <= n; ++i) {
+          const Vec<3> r(i, j, k);
+          if (r.norm() <= radius) add(centre + r, velocity + spin.cross(r), 1.0, 1.0, 0.0, label);
+        }
+  }
+  FragmentInput input() const {
+    FragmentInput in;
+    for (int a = 0; a < dimension; ++a) {
+      in.position[a] = x[a];
+      in.velocity[a] = v[a];
+    }
+    in.mass = mass;
+    in.density = density;
+    in.damage = damage;
+    in.id = id;
+    in.body = body;
+    in.material = material;
+    return in;
+  }
+};
+
+/// Mixed sizes, damage and clumps of chance.
+Cloud random_cloud(int dimension, int n, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  Cloud cloud;
+  cloud.dimension = dimension;
+  const double side = 1.35 * std::pow(n, 1.0 / dimension);
+  for (int i = 0; i < n; ++i) {
+    const Vec<3> position(side * uniform(random), side * uniform(random), dimension == 3 ? side * uniform(random) : 0);
+    const Vec<3> velocity(uniform(random), uniform(random) - 2, dimension == 3 ? uniform(random) : 0);
+    cloud.add(position, velocity, 0.5 + uniform(random), std::exp2(2.5 * uniform(random) - 2), uniform(random), i % 3);
+  }
+  return cloud;
+}
+
+/// Groups by comparing every pair and flooding labels; 0 is dust.
+std::vector<int> brute_force(const FragmentInput& in, const FragmentSettings& settings) {
+  const std::size_t n = in.size();
+  const double power = 1.0 / in.dimension();
+  std::vector<int> label(n, -1);
+  for (std::size_t seed = 0; seed < n; ++seed) {
+    if (label[seed] != -1 || in.damage[seed] >= settings.damage_threshold) continue;
+    std::vector<std::size_t> members{seed};
+    label[seed] = static_cast<int>(seed) + 1;
+    for (std::size_t k = 0; k < members.size(); ++k)
+      for (std::size_t j = 0; j < n; ++j) {
+        const std::size_t i = members[k];
+        if (label[j] != -1 || in.damage[j] >= settings.damage_threshold) continue;
+        double r2 = 0;
+        for (int a = 0; a < in.dimension(); ++a) r2 += std::pow(in.position[a][i] - in.position[a][j], 2);
+        const double d = std::pow(in.mass[i] / in.density[i], power) + std::pow(in.mass[j] / in.density[j], power);
+        if (std::sqrt(r2) >= 0.5 * settings.linking_length * d) continue;
+        label[j] = label[seed];
+        members.push_back(j);
+      }
+    if (members.size() < static_cast<std::size_t>(settings.min_particles))
+      for (const std::size_t i : members) label[i] = 0;
+  }
+  for (int& l : label) l = std::max(l, 0);
+  return label;
+}
+
+TEST(Fragments, AgreesWithComparingEveryPair) {
+  for (const int dimension : {2, 3}) {
+    const Cloud cloud = random_cloud(dimension, 1500, 7u + static_cast<unsigned>(dimension));
+    FragmentSettings settings;
+    settings.min_particles = 3;
+    settings.damage_threshold = 0.8;
+    const std::vector<std::int32_t> groups = find_groups(cloud.input(), settings);
+    const std::vector<int> expected = brute_force(cloud.input(), settings);
+    std::set<std::pair<int, int>> pairs;
+    std::set<int> mine, theirs;
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+      pairs.insert({groups[i], expected[i]});
+      mine.insert(groups[i]);
+      theirs.insert(expected[i]);
+      EXPECT_EQ(groups[i] == 0, expected[i] == 0);
+    }
+    EXPECT_GT(mine.size(), 5u);  // the cloud must exercise several groups and dust
+    EXPECT_TRUE(mine.count(0));
+    EXPECT_EQ(pairs.size(), mine.size());  // one to one
+    EXPECT_EQ(pairs.size(), theirs.size());
+  }
+}
+
+TEST(Fragments, TwoBallsAndTheirDust) {
+  Cloud cloud;
+  cloud.add_ball({0, 0, 0}, 4, {1, 0, 0}, {0, 0, 0.25}, 0);
+  const std::size_t first = cloud.mass.size();
+  cloud.add_ball({20, 0, 0}, 3, {-2, 0, 1}, {0.5, 0, 0}, 1);
+  const std::size_t second = cloud.mass.size() - first;
+  cloud.add({10, 0, 0}, {0, 3, 0});                      // alone
+  cloud.add({0.5, 0.5, 0.5}, {0, 0, 0}, 1.0, 1.0, 1.0);  // inside the first ball but shattered
+  const FragmentTable table = describe_groups(cloud.input(), find_groups(cloud.input(), {}));
+  ASSERT_EQ(table.fragments.size(), 2u);
+  const Fragment &big = table.fragments[0], &small = table.fragments[1];
+  EXPECT_EQ(big.carried.particles, first);
+  EXPECT_EQ(small.carried.particles, second);
+  EXPECT_EQ(table.dust.particles, 2u);
+  EXPECT_NEAR((small.centre - Vec<3>(20, 0, 0)).norm(), 0, 1e-13);
+  EXPECT_NEAR((small.velocity - Vec<3>(-2, 0, 1)).norm(), 0, 1e-13);
+  EXPECT_NEAR((big.spin - Vec<3>(0, 0, 0.25)).norm(), 0, 1e-13);
+  EXPECT_NEAR((small.spin - Vec<3>(0.5, 0, 0)).norm(), 0, 1e-12);
+  EXPECT_DOUBLE_EQ(big.mass_by_body[0], static_cast<double>(first));
+  EXPECT_DOUBLE_EQ(small.mass_by_material[1], static_cast<double>(second));
+  EXPECT_NEAR(big.semi_axes[0], std::cbrt(static_cast<double>(first) * 0.75 / M_PI), 0.02 * big.semi_axes[0]);
+  EXPECT_NEAR(big.semi_axes[0], big.semi_axes[2], 1e-12);
+}
+
+TEST(Fragments, BridgeJoinsAndLinkingLengthDecides) {
+  Cloud cloud;
+  cloud.add_ball({0, 0, 0}, 2, Vec<3>::Zero());
+  cloud.add_ball({7, 0, 0}, 2, Vec<3>::Zero());
+  EXPECT_EQ(describe_groups(cloud.input(), find_groups(cloud.input(), {})).fragments.size(), 2u);
+  cloud.add({3.25, 0, 0}, Vec<3>::Zero());
+  cloud.add({3.75, 0, 0}, Vec<3>::Zero());
+  EXPECT_EQ(describe_groups(cloud.input(), find_groups(cloud.input(), {})).fragments.size(), 1u);
+  const auto sensitivity = fragment_sensitivity(cloud.input(), {});
+  EXPECT_EQ(sensitivity[0].fragments, 2u);  // 1.12 does not span the gaps of 1.25: the two in the middle are dust
+  EXPECT_EQ(sensitivity[1].fragments, 1u);
+  EXPECT_EQ(sensitivity[2].fragments, 1u);
+  EXPECT_DOUBLE_EQ(sensitivity[1].largest_mass_fraction, 1.0);
+  EXPECT_DOUBLE_EQ(sensitivity[0].dust_mass_fraction, 2.0 / static_cast<double>(cloud.mass.size()));
+}
+
+TEST(Fragments, SumsEqualTotalsToRoundOff) {
+  for (const int dimension : {2, 3}) {
+    Cloud cloud = random_cloud(dimension, 4000, 3);
+    FragmentSettings settings;
+    settings.damage_threshold = 0.9;
+    const FragmentTable table = describe_groups(cloud.input(), find_groups(cloud.input(), settings));
+    ASSERT_GT(table.fragments.size(), 3u);
+    ASSERT_GT(table.dust.particles, 100u);
+    Carried sum = table.dust;
+    for (const Fragment& f : table.fragments) sum += f.carried;
+    double mass = 0, momentum_scale = 0, angular_scale = 0;
+    Vec<3> momentum = Vec<3>::Zero(), angular = Vec<3>::Zero();
+    for (std::size_t i = 0; i < cloud.mass.size(); ++i) {
+      const Vec<3> x(cloud.x[0][i], cloud.x[1][i], cloud.x[2][i]), v(cloud.v[0][i], cloud.v[1][i], cloud.v[2][i]);
+      mass += cloud.mass[i];
+      momentum += cloud.mass[i] * v;
+      angular += cloud.mass[i] * x.cross(v);
+      momentum_scale += cloud.mass[i] * v.norm();
+      angular_scale += cloud.mass[i] * x.norm() * v.norm();
+    }
+    EXPECT_EQ(sum.particles, cloud.mass.size());
+    EXPECT_NEAR(sum.mass / mass, 1, 1e-14);
+    EXPECT_NEAR((sum.momentum - momentum).norm() / momentum_scale, 0, 1e-14);
+    EXPECT_NEAR((sum.angular_momentum - angular).norm() / angular_scale, 0, 1e-14);
+  }
+}
+
+TEST(Fragments, FarFlungParticlesAreHarmless) {
+  Cloud cloud;
+  cloud.add_ball({0, 0, 0}, 6, Vec<3>::Zero());
+  const std::size_t ball = cloud.mass.size();
+  for (int k = 0; k < 40; ++k) cloud.add({1e6 * (k + 1), -1e7 * k, 1e300 * k}, {1e3, 0, 0});
+  cloud.add({-1e6, 0, 0}, Vec<3>::Zero(), 1.0, 1e4);  // and one blown up ten thousand times
+  const FragmentTable table = describe_groups(cloud.input(), find_groups(cloud.input(), {}));
+  ASSERT_EQ(table.fragments.size(), 1u);
+  EXPECT_EQ(table.fragments[0].carried.particles, ball);
+  EXPECT_EQ(table.dust.particles, 41u);
+}
+
+TEST(Fragments, NumbersFollowTheMassThroughABreakUp) {
+  FragmentTracker tracker;
+  Cloud before;
+  before.add_ball({0, 0, 0}, 3, Vec<3>::Zero());
+  const std::size_t small = before.mass.size();
+  before.add_ball({20, 0, 0}, 4, Vec<3>::Zero());
+  const FragmentTable first = tracker.update(before.input(), {});
+  ASSERT_EQ(first.fragments.size(), 2u);
+  EXPECT_EQ(first.fragments[0].number, 1);
+  EXPECT_EQ(first.number[0], 2);
+
+  // The big ball breaks into two; its smaller part is now lighter than the untouched ball.
+  Cloud after = before;
+  for (std::size_t i = small; i < after.mass.size(); ++i)
+    if (after.x[0][i] > 22) after.x[0][i] += 10;
+  const FragmentTable second = tracker.update(after.input(), {});
+  ASSERT_EQ(second.fragments.size(), 3u);
+  EXPECT_EQ(second.fragments[0].number, 1);
+  EXPECT_EQ(second.number[0], 2);
+  for (std::size_t i = small; i < after.mass.size(); ++i) EXPECT_EQ(second.number[i], after.x[0][i] > 22 ? 3 : 1);
+  EXPECT_EQ(tracker.last_number(), 3);
+
+  // Particle order means nothing: a tracker restored from a checkpoint and fed reversed columns agrees.
+  FragmentTracker restored;
+  restored.restore(after.id, second.number, tracker.last_number());
+  Cloud reversed = after;
+  for (auto* column : {&reversed.x[0], &reversed.x[1], &reversed.x[2], &reversed.mass, &reversed.density})
+    std::reverse(column->begin(), column->end());
+  std::reverse(reversed.id.begin(), reversed.id.end());
+  const FragmentTable third = restored.update(reversed.input(), {});
+  for (std::size_t i = 0; i < third.number.size(); ++i)
+    EXPECT_EQ(third.number[i], second.number[static_cast<std::size_t>(reversed.id[i])]);
+}
+
+TEST(Fragments, NoParticlesNoFragments) {
+  Cloud cloud;
+  const FragmentTable table = FragmentTracker().update(cloud.input(), {});
+  EXPECT_TRUE(table.fragments.empty());
+  EXPECT_EQ(table.dust.particles, 0u);
+}
+
+}  // namespace
+}  // namespace ejecta

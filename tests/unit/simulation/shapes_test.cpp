@@ -1,0 +1,145 @@
+#include "simulation/shapes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace ejecta {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+Body sphere(double radius) {
+  Body body;
+  body.center = {1, 2, 3};
+  body.radius = radius;
+  return body;
+}
+Body disc(double radius) {
+  Body body = sphere(radius);
+  body.shape = "disc";
+  body.center[2] = 0;
+  return body;
+}
+Body box(const Triple& size, bool flat = false) {
+  Body body;
+  body.shape = flat ? "rectangle" : "box";
+  body.center = {1, 2, flat ? 0.0 : 3};
+  body.size = size;
+  return body;
+}
+Body cylinder(double radius, double length, const Triple& axis) {
+  Body body = sphere(radius);
+  body.shape = "cylinder";
+  body.length = length;
+  body.axis = axis;
+  return body;
+}
+
+template <int Dim>
+double volume(const PointCloud<Dim>& cloud) {
+  return cloud.volume * static_cast<double>(cloud.points.size());
+}
+
+/// Nearest-neighbour distance of the point closest to the centre, and how many points are that near.
+template <int Dim>
+std::pair<double, int> nearest(const PointCloud<Dim>& cloud, const Vec<Dim>& center) {
+  Vec<Dim> middle = cloud.points[0];
+  for (const auto& x : cloud.points)
+    if ((x - center).norm() < (middle - center).norm()) middle = x;
+  double least = 1e300;
+  for (const auto& x : cloud.points)
+    if (x != middle) least = std::min(least, (x - middle).norm());
+  int count = 0;
+  for (const auto& x : cloud.points) count += x != middle && (x - middle).norm() < least * (1 + 1e-9);
+  return {least, count};
+}
+
+TEST(Shapes, ABoxHasItsExactVolumeWhateverTheSpacing) {
+  for (const Lattice lattice : {Lattice::cubic, Lattice::hexagonal})
+    for (const double spacing : {0.1, 0.11, 0.37}) {
+      EXPECT_NEAR(volume(fill<3>(box({1, 0.7, 1.3}), spacing, lattice)), 0.91, 1e-12);
+      EXPECT_NEAR(volume(fill<2>(box({1, 0.7, 0}, true), spacing, lattice)), 0.7, 1e-12);
+    }
+  EXPECT_EQ(fill<3>(box({1, 0.5, 2}), 0.1, Lattice::cubic).points.size(), 1000u);
+  EXPECT_EQ(fill<2>(box({1, 0.5, 0}, true), 0.1, Lattice::cubic).points.size(), 50u);
+}
+
+TEST(Shapes, ABoxIsFilledEvenly) {
+  const auto cloud = fill<3>(box({1, 1, 1}), 0.2, Lattice::cubic);
+  Vec<3> sum = Vec<3>::Zero();
+  for (const auto& x : cloud.points) {
+    sum += x;
+    for (int a = 0; a < 3; ++a) {
+      const double cells = (x[a] - (a + 0.5)) / 0.2 - 0.5;  // the box begins half an edge below (1, 2, 3)
+      EXPECT_NEAR(cells, std::round(cells), 1e-9);
+    }
+  }
+  EXPECT_LT((sum / 125 - Vec<3>(1, 2, 3)).norm(), 1e-12);
+}
+
+TEST(Shapes, RoundBodiesHaveTheirVolumeToAFractionOfALayer) {
+  for (const Lattice lattice : {Lattice::cubic, Lattice::hexagonal}) {
+    EXPECT_NEAR(volume(fill<3>(sphere(0.5), 0.05, lattice)), pi / 6, 0.02 * pi / 6);
+    EXPECT_NEAR(volume(fill<3>(cylinder(0.4, 1.5, {1, 2, -0.5}), 0.05, lattice)), 0.24 * pi, 0.02 * 0.24 * pi);
+    EXPECT_NEAR(volume(fill<2>(disc(0.5), 0.02, lattice)), 0.25 * pi, 0.02 * 0.25 * pi);
+  }
+}
+
+TEST(Shapes, AllPointsLieInside) {
+  for (const Lattice lattice : {Lattice::cubic, Lattice::hexagonal}) {
+    for (const Body& body : {sphere(0.5), box({1, 0.7, 1.3}), cylinder(0.4, 1.5, {1, 2, -0.5})})
+      for (const auto& x : fill<3>(body, 0.1, lattice).points) EXPECT_TRUE(inside<3>(body, x)) << body.shape;
+    for (const Body& body : {disc(0.5), box({1, 0.7, 0}, true)})
+      for (const auto& x : fill<2>(body, 0.1, lattice).points) EXPECT_TRUE(inside<2>(body, x)) << body.shape;
+  }
+}
+
+TEST(Shapes, InsideKnowsTheSurface) {
+  EXPECT_TRUE(inside<3>(sphere(0.5), {1.49, 2, 3}));
+  EXPECT_FALSE(inside<3>(sphere(0.5), {1.4, 2.4, 3}));
+  EXPECT_TRUE(inside<3>(box({1, 2, 3}), {1.49, 2.99, 4.49}));
+  EXPECT_FALSE(inside<3>(box({1, 2, 3}), {1.49, 3.01, 4.49}));
+  const Body tilted = cylinder(0.1, 2, {1, 1, 0});
+  EXPECT_TRUE(inside<3>(tilted, {1 + 0.7, 2 + 0.7, 3}));
+  EXPECT_FALSE(inside<3>(tilted, {1 + 0.72, 2 + 0.72, 3}));
+  EXPECT_FALSE(inside<3>(tilted, {1 + 0.7, 2 - 0.7, 3}));
+  EXPECT_FALSE(inside<3>(tilted, {1, 2, 3.11}));
+  EXPECT_FALSE(inside<2>(disc(0.5), {1.4, 2.4}));
+  EXPECT_TRUE(inside<2>(disc(0.5), {1.3, 2.3}));
+}
+
+TEST(Shapes, HexagonalLatticesAreClosePackedAtTheDensityOfTheSpacing) {
+  const double s = 0.1;
+  const auto solid = fill<3>(sphere(0.5), s, Lattice::hexagonal);
+  EXPECT_NEAR(solid.volume, s * s * s, 1e-15);
+  const auto [distance, count] = nearest<3>(solid, {1, 2, 3});
+  EXPECT_NEAR(distance, std::pow(2.0, 1.0 / 6) * s, 1e-12);
+  EXPECT_EQ(count, 12);
+
+  const auto plane = fill<2>(disc(0.5), s, Lattice::hexagonal);
+  EXPECT_NEAR(plane.volume, s * s, 1e-15);
+  const auto [distance2, count2] = nearest<2>(plane, {1, 2});
+  EXPECT_NEAR(distance2, std::sqrt(2 / std::sqrt(3.0)) * s, 1e-12);
+  EXPECT_EQ(count2, 6);
+}
+
+TEST(Shapes, CubicLatticesHaveSixNeighboursAtTheSpacing) {
+  const auto [distance, count] = nearest<3>(fill<3>(sphere(0.5), 0.1, Lattice::cubic), {1, 2, 3});
+  EXPECT_NEAR(distance, 0.1, 1e-12);
+  EXPECT_EQ(count, 6);
+}
+
+TEST(Shapes, TheEstimatedCountIsNearTheCount) {
+  const auto check = [](double estimate, std::size_t count) {
+    EXPECT_NEAR(estimate, static_cast<double>(count), 0.03 * estimate);
+  };
+  for (const Body& body : {sphere(0.5), box({1, 0.7, 1.3}), cylinder(0.4, 1.5, {1, 2, -0.5})})
+    check(estimated_count(body, 0.05, 3), fill<3>(body, 0.05, Lattice::cubic).points.size());
+  for (const Body& body : {disc(0.5), box({1, 0.7, 0}, true)})
+    check(estimated_count(body, 0.02, 2), fill<2>(body, 0.02, Lattice::cubic).points.size());
+}
+
+}  // namespace
+}  // namespace ejecta
