@@ -44,7 +44,10 @@ void PairLists<Dim>::make_points(const Particles<Dim>& particles, const Settings
   const double total_mass = parallel_sum<double>(n, [&](std::size_t i) { return mass[i]; });
   for (int a = 0; a < Dim; ++a) {
     const auto v = particles.column(Field::velocity, a);
-    drift_[a] = parallel_sum<double>(n, [&](std::size_t i) { return mass[i] * v[i]; }) / total_mass;
+    // A reflecting face does not drift along, and images beyond it move the other way.
+    drift_[a] = settings.boundary.kind[a] == BoundaryKind::reflecting
+                    ? 0.0
+                    : parallel_sum<double>(n, [&](std::size_t i) { return mass[i] * v[i]; }) / total_mass;
   }
   points_.resize(n);
   parallel_for(0, n, [&](std::size_t i) {

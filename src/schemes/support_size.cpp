@@ -35,28 +35,26 @@ SupportSize::SupportSize(Kernel kernel, int dim, double nodes_per_h) : dim_(dim)
       psi0_.push_back(std::pow(lattice_sum<decltype(k)>(dim_, n), 1.0 / dim_));
   });
   for (std::size_t k = 1; k < psi0_.size(); ++k) psi0_[k] = std::max(psi0_[k], psi0_[k - 1]);
+  constexpr std::size_t entries = 16384;
+  per_psi0_ = entries / psi0_.back();
+  for (std::size_t k = 0; k <= entries; ++k) {
+    const double psi0 = static_cast<double>(k) / per_psi0_;
+    const auto above = std::upper_bound(psi0_.begin(), psi0_.end(), psi0);
+    if (above == psi0_.begin()) {
+      nodes_.push_back(first_);
+    } else if (above == psi0_.end()) {
+      nodes_.push_back(last_);
+    } else {
+      const auto below = static_cast<double>(above - psi0_.begin() - 1);
+      nodes_.push_back(first_ + step_ * (below + (psi0 - above[-1]) / (above[0] - above[-1])));
+    }
+  }
 }
 
 double SupportSize::psi0(double nodes_per_h) const {
   const double place = std::clamp((nodes_per_h - first_) / step_, 0.0, static_cast<double>(psi0_.size() - 1));
   const auto k = std::min(static_cast<std::size_t>(place), psi0_.size() - 2);
   return psi0_[k] + (place - static_cast<double>(k)) * (psi0_[k + 1] - psi0_[k]);
-}
-
-double SupportSize::effective_nodes_per_h(double neighbour_sum) const {
-  if (!(neighbour_sum > 0)) return 0.5 * target_;
-  const double psi0 = dim_ == 2 ? std::sqrt(neighbour_sum) : std::cbrt(neighbour_sum);
-  const auto above = std::upper_bound(psi0_.begin(), psi0_.end(), psi0);
-  if (above == psi0_.end()) return last_ * psi0 / psi0_.back();
-  if (above == psi0_.begin()) return first_;
-  const auto k = static_cast<double>(above - psi0_.begin() - 1);
-  return first_ + step_ * (k + (psi0 - above[-1]) / (above[0] - above[-1]));
-}
-
-double SupportSize::growth(double neighbour_sum) const {
-  const double s = std::clamp(target_ / effective_nodes_per_h(neighbour_sum), 0.25, 4.0);
-  const double a = s < 1 ? 0.4 * (1 + s * s) : 0.4 * (1 + 1 / (s * s * s));
-  return 1 - a + a * s;
 }
 
 }  // namespace ejecta

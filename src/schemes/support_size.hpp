@@ -1,5 +1,7 @@
 #pragma once
 /// Choice of the smoothing length from the zeroth moment of the neighbours: seed 001 (Owen 2010), eqs (1)-(4).
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "scene/scene.hpp"
@@ -13,11 +15,22 @@ class SupportSize {
   SupportSize(Kernel kernel, int dim, double nodes_per_h);
 
   /// Effective n_h of a particle whose sum over neighbours is `neighbour_sum`. With no neighbours: half the target.
-  double effective_nodes_per_h(double neighbour_sum) const;
+  double effective_nodes_per_h(double neighbour_sum) const {
+    if (!(neighbour_sum > 0)) return 0.5 * target_;
+    const double psi0 = dim_ == 2 ? std::sqrt(neighbour_sum) : std::cbrt(neighbour_sum);
+    const double place = psi0 * per_psi0_;
+    const auto k = static_cast<std::size_t>(place);
+    if (k + 1 >= nodes_.size()) return nodes_.back() * place / static_cast<double>(nodes_.size() - 1);
+    return nodes_[k] + (place - static_cast<double>(k)) * (nodes_[k + 1] - nodes_[k]);
+  }
 
   /// Factor to apply to h so that n_h moves to its target: 1 - a + a s with s = target/effective in [1/4, 4], and
   /// a = 0.4 (1 + s^2) for s < 1, 0.4 (1 + s^-3) otherwise (eqs 2-3).
-  double growth(double neighbour_sum) const;
+  double growth(double neighbour_sum) const {
+    const double s = std::clamp(target_ / effective_nodes_per_h(neighbour_sum), 0.25, 4.0);
+    const double a = s < 1 ? 0.4 * (1 + s * s) : 0.4 * (1 + 1 / (s * s * s));
+    return 1 - a + a * s;
+  }
 
   /// Psi0 on the table at n_h.
   double psi0(double nodes_per_h) const;
@@ -26,7 +39,9 @@ class SupportSize {
   static constexpr double first_ = 0.25, last_ = 8, step_ = 0.01;
   int dim_;
   double target_;
-  std::vector<double> psi0_;  ///< at n_h = first_ + k step_, never decreasing
+  std::vector<double> psi0_;   ///< at n_h = first_ + k step_, never decreasing
+  std::vector<double> nodes_;  ///< the inverse: n_h at psi0 = k / per_psi0_, for a look-up without a search
+  double per_psi0_;
 };
 
 }  // namespace ejecta

@@ -57,6 +57,15 @@ void dense_state(Simulation<Dim>& sim, const Material& material, const EosT& eos
   });
 }
 
+/// Local strain, or 0 where a bound on the largest principal stress, -P + 2 sqrt(J2/3), shows that it cannot reach the
+/// weakest flaw: true for most particles, and it saves them the solution of a cubic.
+template <int Dim>
+double opening_strain(double pressure, const Deviator<Dim>& s, double weakest, double young, double alpha) {
+  const double bound = 2 * std::sqrt(second_invariant<Dim>(s) / 3) - pressure;
+  if (local_strain(bound, 0, young, alpha) < weakest) return 0;
+  return local_strain(largest_principal_stress<Dim>(pressure, s), 0, young, alpha);
+}
+
 /// Distension of a particle; 1 where its material has no pores.
 template <int Dim>
 double distension_of(const Particles<Dim>& p, const Material& material, std::size_t i) {
@@ -128,12 +137,12 @@ void damage(Simulation<Dim>& sim) {
         const Flaws flaws{p.column(Field::flaw_strain)[i], p.column(Field::flaw_exponent)[i],
                           p.column(Field::flaw_count)[i]};
         // Pressure and deviator are still those before damage, so the strain is that of the undamaged solid.
-        const double strain = local_strain(largest_principal_stress<Dim>(pressure, deviator(p, i)), 0, young, alpha);
-        const double active = active_flaws(strain, flaws), limit = crack_limit(active, flaws);
+        const double active = active_flaws(opening_strain<Dim>(pressure, deviator(p, i), flaws.strain, young, alpha), flaws);
+        const double crack_speed = material.damage->crack_speed_factor * p.column(Field::sound_speed)[i];
         p.column(Field::crack_rate)[i] =
-            crack < limit ? crack_growth_rate(active, material.damage->crack_speed_factor * p.column(Field::sound_speed)[i],
-                                              p.column(Field::smoothing_length)[i])
-                          : 0.0;
+            crack < crack_limit(active, flaws)
+                ? crack_growth_rate(active, crack_speed, p.column(Field::smoothing_length)[i])
+                : 0.0;
         total += crack * crack * crack;
       }
       total = std::min(total, 1.0);

@@ -38,7 +38,8 @@ void smoothing_lengths(Simulation<Dim>& sim) {
     const double most_relative_h = material.solid() ? sim.scene.numerics.smoothing_growth : gas_growth;
     const double density0 = material.bulk_density();
     parallel_for(range.begin, range.end, [&](std::size_t i) {
-      const double h0 = sim.scene.numerics.nodes_per_h * std::pow(p.column(Field::mass)[i] / density0, 1.0 / Dim);
+      const double cell = p.column(Field::mass)[i] / density0;
+      const double h0 = sim.scene.numerics.nodes_per_h * (Dim == 2 ? std::sqrt(cell) : std::cbrt(cell));
       double& h = p.column(Field::smoothing_length)[i];
       h = std::clamp(h * sim.support->growth(p.column(Field::neighbour_sum)[i]), least_relative_h * h0,
                      most_relative_h * h0);

@@ -103,7 +103,9 @@ void plant(Simulation<Dim>& sim, const std::vector<Seedling<Dim>>& seedlings) {
     const double density = std::isnan(body.density) ? material.bulk_density() : body.density;
     p.set_vector(Field::position, i, s.x);
     for (int a = 0; a < Dim; ++a) p.column(Field::velocity, a)[i] = body.velocity[static_cast<std::size_t>(a)];
-    p.column(Field::mass)[i] = density * s.volume;
+    // Single precision must hold the mass exactly: both sides of a pair then use the same two masses.
+    const double mass = density * s.volume;
+    p.column(Field::mass)[i] = scene.numerics.precision == Precision::mixed ? static_cast<float>(mass) : mass;
     p.column(Field::density)[i] = density;
     p.column(Field::specific_energy)[i] = initial_energy(body, material, density);
     p.column(Field::smoothing_length)[i] = scene.numerics.nodes_per_h * s.spacing;

@@ -85,9 +85,9 @@ template <int Dim>
 std::size_t missed_neighbours(const Particles<Dim>& p, const PairLists<Dim>& lists, const Boundary& boundary,
                               double support) {
   std::size_t missed = 0;
-  for (const Cluster& c : lists.clusters()) {
+  for (std::size_t cluster = 0; cluster < lists.clusters().size(); ++cluster) {
     std::vector<std::vector<Vec<Dim>>> offered(p.size());
-    for (const std::uint32_t k : lists.candidates(c)) {
+    for (const std::uint32_t k : lists.candidates(cluster)) {
       if (k < p.size()) {
         offered[k].push_back(p.vector(Field::position, k));
         continue;
@@ -99,7 +99,7 @@ std::size_t missed_neighbours(const Particles<Dim>& p, const PairLists<Dim>& lis
           x[a] = image_position(boundary, image, a, x[a]);
       offered[image.source].push_back(x);
     }
-    for (std::size_t i = c.begin; i < c.end; ++i)
+    for (std::size_t i = lists.clusters()[cluster].begin; i < lists.clusters()[cluster].end; ++i)
       for (const auto& neighbour : all_neighbours(p, boundary, support, i))
         missed += std::none_of(offered[neighbour.j].begin(), offered[neighbour.j].end(),
                                [&](const Vec<Dim>& x) { return (x - neighbour.x).norm() < 1e-9; });

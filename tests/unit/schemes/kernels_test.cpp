@@ -71,7 +71,7 @@ TYPED_TEST(KernelTest, LanesAgreeWithNumbers) {
     }
     for (int k = 0; k < 16; ++k) {
       const double exact_q = static_cast<double>(qf[k]);
-      EXPECT_NEAR(value_f[k], K::value(exact_q), 1e-6 * scale);
+      EXPECT_NEAR(value_f[k], K::value(exact_q), 2e-6 * scale);
       EXPECT_NEAR(rate_f[k], K::slope_over_q(exact_q, 1 / exact_q), 5e-6 * scale / exact_q);
     }
   }
@@ -81,7 +81,7 @@ TEST(Kernel, NamesLeadToTheRightStruct) {
   EXPECT_EQ(with_kernel(Kernel::cubic_spline, [](auto k) { return decltype(k)::value(0.0); }), 1);
   EXPECT_EQ(with_kernel(Kernel::quintic_spline, [](auto k) { return decltype(k)::value(0.0); }), 66);
   EXPECT_EQ(with_kernel(Kernel::wendland_c2, [](auto k) { return decltype(k)::value(1.0); }), 3.0 / 16);
-  EXPECT_EQ(with_kernel(Kernel::wendland_c4, [](auto k) { return decltype(k)::value(1.0); }), 83.0 / 768);
+  EXPECT_DOUBLE_EQ(with_kernel(Kernel::wendland_c4, [](auto k) { return decltype(k)::value(1.0); }), 83.0 / 768);
   EXPECT_EQ(kernel_support(Kernel::quintic_spline), 3);
   EXPECT_EQ(kernel_support(Kernel::wendland_c2), 2);
 }
