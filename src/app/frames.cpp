@@ -177,8 +177,14 @@ void Frames<Dim>::govern(const Simulation<Dim>& sim) {
   if (++frame_ < frames_before_judging || share <= sim.scene.insitu.max_share) return;
   stretch_ *= 2;
   frame_ = 0;
-  spdlog::warn("in-situ work takes {:.0f} % of the wall time (insitu.max_share = {:.0f} %): time between frames doubled",
-               100 * share, 100 * sim.scene.insitu.max_share);
+  warn(fmt::format("in-situ work takes {:.0f} % of the wall time (insitu.max_share = {:.0f} %): time between frames "
+                   "doubled", 100 * share, 100 * sim.scene.insitu.max_share));
+}
+
+template <int Dim>
+void Frames<Dim>::warn(std::string text) {
+  spdlog::warn("{}", text);
+  warnings_.push_back(std::move(text));
 }
 
 double insitu_seconds(const StageTimers& timers) {
@@ -271,7 +277,7 @@ void Frames<Dim>::draw_with_catalyst(Simulation<Dim>& sim) {
   images_ += static_cast<int>(report.images.size());
   for (const std::string& warning : report.warnings) {
     if (sim.scene.insitu.on_error == OnError::abort) throw SimulationError("in situ: " + warning);
-    spdlog::warn("in situ: {}", warning);
+    warn("in situ: " + warning);
   }
 }
 

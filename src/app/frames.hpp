@@ -41,6 +41,7 @@ class Frames final : public Observer<Dim> {
 
   /// Fragments as of the last frame; nothing if the scene does not ask for them.
   const std::optional<FragmentTable>& fragments() const { return fragments_; }
+  const std::vector<std::string>& warnings() const { return warnings_; }
   int images() const { return images_; }
   int drawn() const { return drawn_; }  ///< frames so far
   /// After a restart: the next frame is the first one later than the checkpoint.
@@ -53,6 +54,7 @@ class Frames final : public Observer<Dim> {
   void draw_without_gl(const Simulation<Dim>& sim);
   std::vector<Channel> channels(const Simulation<Dim>& sim);
   Channel fragment_channel();
+  void warn(std::string text);
   void govern(const Simulation<Dim>& sim);
   void collect_compaction(const Simulation<Dim>& sim);
   void write_compaction_tables(const Simulation<Dim>& sim) const;
@@ -70,6 +72,7 @@ class Frames final : public Observer<Dim> {
   std::vector<std::int32_t> fragment_numbers_;
   std::vector<double> compaction_pressure_, compaction_distension_;
   std::vector<std::int32_t> compaction_loading_;
+  std::vector<std::string> warnings_;
   std::optional<ImageIndex> index_;  ///< of the images drawn without Catalyst
   std::int64_t last_drawn_ = -1;
   double next_ = 0;                  ///< time of the next frame [s]

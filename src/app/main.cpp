@@ -1,6 +1,8 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdlib>
 #include <new>
 
 #include "app/log.hpp"
@@ -15,11 +17,19 @@ void print_problems(const ejecta::InputError& error) {
   for (const std::string& problem : error.problems()) fmt::print(stderr, "ejecta: {}\n", problem);
 }
 
+/// The OpenMP runtime reads its settings before main() begins, and by default lets waiting threads spin for so long that
+/// a run slows down several times when it shares its cores with others. Start again with a short spin instead.
+void limit_spinning(char** argv) {
+  if (std::getenv("GOMP_SPINCOUNT") || std::getenv("OMP_WAIT_POLICY")) return;
+  setenv("GOMP_SPINCOUNT", "20000", 1);
+  execv("/proc/self/exe", argv);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   using namespace ejecta;
-  spdlog::set_default_logger(spdlog::default_logger());
+  limit_spinning(argv);
   if (argc == 2 && std::string_view(argv[1]) == "gl-probe") return run_gl_probe();
 
   CLI::App app{"Ejecta: impact, porous crushing and fragmentation by smoothed particles, seen while it runs."};

@@ -11,6 +11,7 @@
 #include "app/resources.hpp"
 #include "app/signals.hpp"
 #include "app/tables.hpp"
+#include "app/watch.hpp"
 #include "base/errors.hpp"
 #include "base/parallel.hpp"
 #include "insitu/gl_probe.hpp"
@@ -145,20 +146,23 @@ int run_in(const Job& job) {
   if (job.restart) frames.resume(*sim);
   Tables<Dim> tables(*sim, job.folder, frames, resume_at);
   Checkpoints<Dim> checkpoints(job.folder, job.resolved, job.scene);
+  Watch<Dim> watch(*sim, job.folder, frames);
   Progress<Dim> progress;
   install_stop_signals();
   spdlog::info("{}: {} particles in {}D, {} threads, {:.0f} bytes a particle", job.scene.name, sim->particles.size(), Dim,
                max_threads(), static_cast<double>(memory_bytes(*sim)) / static_cast<double>(sim->particles.size()));
-  const std::vector<Observer<Dim>*> observers{&frames, &tables, &checkpoints, &progress};
+  const std::vector<Observer<Dim>*> observers{&frames, &tables, &checkpoints, &watch, &progress};
   try {
     const bool finished = run(*sim, observers, stop_requested);
     if (!finished) spdlog::warn("stopped by a signal; --restart goes on from here");
+    watch.conclude(*sim, finished ? RunState::finished : RunState::stopped);
   } catch (const SimulationError& error) {
     spdlog::error("{}", error.what());
     write_checkpoint(job.folder / fmt::format("checkpoints/failed_{:06d}.h5", sim->clock.step),
                      checkpoint_view(*sim, job.resolved));
     frames.observe(*sim, true);
     tables.observe(*sim, true);
+    watch.conclude(*sim, RunState::failed);
     conclude(*sim, frames, job, 3);
     return 3;
   }

@@ -105,9 +105,14 @@ void Progress<Dim>::observe(Simulation<Dim>& sim, bool last) {
                           ? static_cast<double>(sim.particles.size()) *
                                 static_cast<double>(sim.clock.step - shown_step_) / sim.wall_seconds / 1e6
                           : 0;
-  spdlog::info("step {:6d}  t {:>10} of {}  dt {:>9} by {}  {:.2f} M particle-steps/s  dE/E {:+.1e}{}", sim.clock.step,
+  const std::size_t limiting = sim.vote.particle;
+  const std::string culprit =
+      limiting < sim.particles.size()
+          ? " in " + sim.scene.bodies[static_cast<std::size_t>(sim.particles.label(Label::body)[limiting])].name
+          : "";
+  spdlog::info("step {:6d}  t {:>10} of {}  dt {:>9} by {}{}  {:.2f} M particle-steps/s  dE/E {:+.1e}{}", sim.clock.step,
                format_quantity(sim.clock.time, "s"), format_quantity(sim.scene.time_end, "s"),
-               format_quantity(sim.clock.dt, "s"), sim.vote.reason, rate,
+               format_quantity(sim.clock.dt, "s"), sim.vote.reason, culprit, rate,
                conservation_errors(sim.initial, totals(sim.particles)).energy, eta);
   shown_ = now;
 }

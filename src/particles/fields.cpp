@@ -26,7 +26,7 @@ const std::array<FieldInfo, field_count>& field_catalogue() {
       {Field::plastic_strain, "plastic_strain", scalar, "1", state, "accumulated equivalent plastic strain"},
       {Field::distension, "distension", scalar, "1", state, "alpha = solid density / bulk density"},
       {Field::stress_factor, "stress_factor", scalar, "1", derived, "share of the strain rate that the solid sees"},
-      {Field::damage, "damage", scalar, "1", derived, "total damage: tension and pore crushing, at most 1"},
+      {Field::damage, "damage", scalar, "1", state, "total damage: tension and pore crushing, at most 1, never healing"},
       {Field::crack, "crack", scalar, "1", state, "cube root of the tensile damage"},
       {Field::crack_rate, "crack_rate", scalar, "1/s", rate, "growth of the cube root of the tensile damage"},
       {Field::flaw_strain, "flaw_strain", scalar, "1", constant, "activation strain of the weakest flaw"},

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <algorithm>
 #include <cmath>
 
 #include "base/parallel.hpp"
@@ -8,9 +10,10 @@ namespace ejecta {
 
 namespace {
 
-/// Speed of longitudinal waves from that of the fluid: c^2 + 4 G / (3 rho_s).
-double longitudinal(double fluid_speed, double shear_modulus, double solid_density) {
-  return std::sqrt(fluid_speed * fluid_speed + 4 * shear_modulus / (3 * solid_density));
+/// Speed of longitudinal waves from that of the fluid: c^2 + 4 G / (3 rho_s). Solid expanded beyond its rest density has
+/// broken or melted; counting its shear modulus in full would let a few stray particles dictate the time step.
+double longitudinal(double fluid_speed, double shear_modulus, double solid_density, double rest_density) {
+  return std::sqrt(fluid_speed * fluid_speed + 4 * shear_modulus / (3 * std::max(solid_density, rest_density)));
 }
 
 template <int Dim>
@@ -36,7 +39,8 @@ void porous_state(Simulation<Dim>& sim, const Material& material, const EosT& eo
     pressure[i] = bulk_pressure(r.solid, r.alpha);
     const double solid_density = r.alpha * rho[i];
     const double solid_speed =
-        longitudinal(ejecta::sound_speed(r.solid, solid_density, eos.sound_speed_floor()), shear, solid_density);
+        longitudinal(ejecta::sound_speed(r.solid, solid_density, eos.sound_speed_floor()), shear, solid_density,
+                     eos.reference_density());
     sound[i] = porous_sound_speed(porosity, solid_speed, r.alpha);
     if (coupled)
       p.column(Field::stress_factor)[i] =
@@ -53,7 +57,7 @@ void dense_state(Simulation<Dim>& sim, const Material& material, const EosT& eos
   parallel_for(range.begin, range.end, [&](std::size_t i) {
     const EosPoint point = eos.evaluate(rho[i], e[i]);
     pressure[i] = point.pressure;
-    sound[i] = longitudinal(ejecta::sound_speed(point, rho[i], eos.sound_speed_floor()), shear, rho[i]);
+    sound[i] = longitudinal(ejecta::sound_speed(point, rho[i], eos.sound_speed_floor()), shear, rho[i], eos.reference_density());
   });
 }
 
@@ -145,8 +149,9 @@ void damage(Simulation<Dim>& sim) {
                 : 0.0;
         total += crack * crack * crack;
       }
-      total = std::min(total, 1.0);
-      p.column(Field::damage)[i] = total;
+      // What is broken stays broken, also where the corrector takes back part of the crack that was predicted.
+      double& broken = p.column(Field::damage)[i];
+      broken = total = std::clamp(total, broken, 1.0);
       pressure = damaged_pressure(pressure, total);
       sim.intact[i] = material.strength
                           ? std::visit([&](const auto& s) { return s.intact_fraction(total); }, *material.strength)

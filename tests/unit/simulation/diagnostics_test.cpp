@@ -1,0 +1,59 @@
+#include "simulation/diagnostics.hpp"
+
+#include <gtest/gtest.h>
+
+#include "unit/base/thread_counts.hpp"
+#include "unit/particles/cloud.hpp"
+
+namespace ejecta {
+namespace {
+
+TEST(Diagnostics, TotalsAddUpTwoParticles) {
+  auto p = random_cloud<3>(2, 1, 1, 1, {Field::smoothing_length, Field::specific_energy});
+  p.column(Field::mass)[0] = 2;
+  p.column(Field::mass)[1] = 3;
+  p.set_vector(Field::position, 0, Vec<3>(1, 0, 0));
+  p.set_vector(Field::position, 1, Vec<3>(0, 2, 0));
+  p.set_vector(Field::velocity, 0, Vec<3>(0, 5, 0));
+  p.set_vector(Field::velocity, 1, Vec<3>(0, 0, -4));
+  p.column(Field::specific_energy)[0] = 10;
+  p.column(Field::specific_energy)[1] = -1;
+  const Totals t = totals(p);
+  EXPECT_EQ(t.mass, 5);
+  EXPECT_EQ(t.momentum, Vec<3>(0, 10, -12));
+  EXPECT_EQ(t.angular_momentum, Vec<3>(-24, 0, 10));
+  EXPECT_EQ(t.momentum_scale, 22);
+  EXPECT_EQ(t.kinetic, 49);
+  EXPECT_EQ(t.internal, 17);
+  EXPECT_EQ(t.energy(), 66);
+}
+
+TEST(Diagnostics, TotalsAreTheSameForEveryThreadCount) {
+  auto p = random_cloud<2>(5000, 2, 1, 1, {Field::smoothing_length, Field::specific_energy});
+  Uniform uniform(3);
+  for (double& v : p.column(Field::velocity)) v = uniform(-1, 1);
+  std::vector<double> energies;
+  for_thread_counts([&](int) { energies.push_back(totals(p).energy()); });
+  EXPECT_EQ(energies[0], energies[1]);
+  EXPECT_EQ(energies[0], energies[2]);
+}
+
+TEST(Diagnostics, ErrorsAreRelative) {
+  Totals before, now;
+  before.mass = 4;
+  before.momentum = {0, 0, 8};
+  before.momentum_scale = 10;
+  before.kinetic = 100;
+  before.internal = -50;
+  now = before;
+  now.mass = 5;
+  now.momentum = {3, 4, 8};
+  now.internal = -40;
+  const ConservationErrors errors = conservation_errors(before, now);
+  EXPECT_EQ(errors.mass, 0.25);
+  EXPECT_EQ(errors.momentum, 0.5);
+  EXPECT_EQ(errors.energy, 0.1);
+}
+
+}  // namespace
+}  // namespace ejecta

@@ -1,0 +1,125 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "simulation/stages.hpp"
+#include "unit/simulation/small_scenes.hpp"
+
+namespace ejecta {
+namespace {
+
+/// One particle of a material, to be put into any state.
+struct Probe {
+  std::unique_ptr<Simulation<3>> sim;
+  Particles<3>& p;
+  explicit Probe(const std::string& material)
+      : sim(start<3>(R"([scene]
+name = "probe"
+[resolution]
+spacing = "1 mm"
+[time]
+end = "1 ms"
+[[bodies]]
+name = "probe"
+shape = "box"
+size = ["1 mm", "1 mm", "1 mm"]
+material = ")" + material + "\"\n")),
+        p(sim->particles) {}
+  const Material& material() const { return sim->materials[0]; }
+  double& at(Field f, int component = 0) { return p.column(f, component)[0]; }
+  EosPoint solid(double rho, double e) {
+    return std::visit([&](const auto& eos) { return eos.evaluate(rho, e); }, material().eos);
+  }
+};
+
+TEST(EquationOfStateStage, GivesPressureAndLongitudinalSpeedOfADenseSolid) {
+  Probe probe("aluminium");
+  probe.at(Field::density) *= 1.1;
+  probe.at(Field::specific_energy) = 1e5;
+  equation_of_state(*probe.sim);
+  const double rho = probe.at(Field::density);
+  const EosPoint point = probe.solid(rho, 1e5);
+  EXPECT_EQ(probe.at(Field::pressure), point.pressure);
+  const double bulk = point.dP_drho + point.pressure / (rho * rho) * point.dP_de;
+  EXPECT_NEAR(probe.at(Field::sound_speed),
+              std::sqrt(bulk + 4.0 / 3 * probe.material().elastic->shear_modulus / rho), 1e-9);
+}
+
+TEST(EquationOfStateStage, CrushesAPorousSolidForGood) {
+  Probe probe("pumice");
+  const Porosity& porosity = *probe.material().porosity;
+  const double rho0 = probe.at(Field::density);
+  EXPECT_EQ(probe.at(Field::distension), porosity.initial_distension());
+  probe.at(Field::density) = 1.4 * rho0;
+  equation_of_state(*probe.sim);
+  const double alpha = probe.at(Field::distension), pressure = probe.at(Field::pressure);
+  EXPECT_LT(alpha, porosity.initial_distension() - 0.5);
+  EXPECT_NEAR(alpha, porosity.curve.alpha(pressure), 1e-9);
+  EXPECT_NEAR(pressure, probe.solid(1.4 * alpha * rho0, 0).pressure / alpha, 1e-6 * pressure);
+  EXPECT_LT(probe.at(Field::stress_factor), 1);
+  probe.at(Field::density) = 1.38 * rho0;
+  equation_of_state(*probe.sim);
+  EXPECT_EQ(probe.at(Field::distension), alpha);
+  EXPECT_LT(probe.at(Field::pressure), pressure);
+  EXPECT_EQ(probe.at(Field::stress_factor), 1);
+}
+
+TEST(StrengthStage, ReturnsTheDeviatorToTheYieldSurfaceOfTheBody) {
+  Probe probe("pumice");
+  const double yield = std::get<VonMises>(*probe.material().strength).yield_stress;
+  const double alpha = probe.at(Field::distension);
+  probe.at(Field::specific_energy) = 0.25 * probe.material().melt_energy;
+  probe.at(Field::deviatoric_stress, 2) = yield;  // pure shear: sqrt(3) times that, equivalent
+  strength(*probe.sim);
+  const double limit = 0.75 * yield / alpha;
+  EXPECT_NEAR(std::sqrt(3.0) * probe.at(Field::deviatoric_stress, 2), limit, 1e-9 * yield);
+  const double excess = std::sqrt(3.0) * yield - limit;
+  EXPECT_NEAR(probe.at(Field::plastic_strain), excess / (3 * probe.material().elastic->shear_modulus / alpha), 1e-15);
+  const double strained = probe.at(Field::plastic_strain);
+  probe.at(Field::deviatoric_stress, 2) *= 0.9;
+  strength(*probe.sim);
+  EXPECT_EQ(probe.at(Field::plastic_strain), strained);
+}
+
+TEST(DamageStage, CracksGrowInTensionOnlyAndTakeTensionAway) {
+  Probe probe("pumice");
+  probe.at(Field::pressure) = 1e7;
+  damage(*probe.sim);
+  EXPECT_EQ(probe.at(Field::crack_rate), 0);
+  EXPECT_EQ(probe.at(Field::damage), 0);
+  EXPECT_EQ(probe.sim->intact[0], 1);
+
+  probe.at(Field::pressure) = -1e9;
+  damage(*probe.sim);
+  EXPECT_GT(probe.at(Field::crack_rate), 0);
+
+  probe.at(Field::crack) = 0.5;
+  probe.at(Field::pressure) = -1e9;
+  damage(*probe.sim);
+  EXPECT_EQ(probe.at(Field::damage), 0.125);
+  EXPECT_EQ(probe.sim->intact[0], 0.875);
+  EXPECT_EQ(probe.at(Field::pressure), -0.875e9);
+
+  probe.at(Field::crack) = 1.7;  // beyond 1 by a last long step
+  probe.at(Field::pressure) = -1e9;
+  damage(*probe.sim);
+  EXPECT_EQ(probe.at(Field::damage), 1);
+  EXPECT_EQ(probe.at(Field::pressure), 0);
+  EXPECT_EQ(probe.at(Field::crack_rate), 0);
+  probe.at(Field::pressure) = 1e9;
+  damage(*probe.sim);
+  EXPECT_EQ(probe.at(Field::pressure), 1e9) << "broken matter bears pressure";
+  probe.at(Field::crack) = 0.1;  // taken back by the corrector
+  damage(*probe.sim);
+  EXPECT_EQ(probe.at(Field::damage), 1) << "what is broken stays broken";
+}
+
+TEST(DamageStage, CrushedPoresAreDamageToo) {
+  Probe probe("pumice");
+  probe.at(Field::distension) = 1;
+  damage(*probe.sim);
+  EXPECT_NEAR(probe.at(Field::damage), 1, 1e-12);
+}
+
+}  // namespace
+}  // namespace ejecta

@@ -1,0 +1,136 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "material/distension_solver.hpp"
+#include "simulation/stages.hpp"
+#include "unit/simulation/small_scenes.hpp"
+
+namespace ejecta {
+namespace {
+
+/// A cube of 10^3 particles with exact gradients of linear flows in the middle.
+std::unique_ptr<Simulation<3>> cube(const std::string& material) {
+  return start<3>(R"([scene]
+name = "cube"
+[resolution]
+spacing = "1 mm"
+[time]
+end = "1 ms"
+[[bodies]]
+name = "cube"
+shape = "box"
+size = ["10 mm", "10 mm", "10 mm"]
+material = ")" + material + R"("
+[numerics]
+gradient_correction = true
+balsara = true
+)");
+}
+
+void set_flow(Simulation<3>& sim, const Mat<3>& gradient) {
+  for (std::size_t i = 0; i < sim.particles.size(); ++i)
+    sim.particles.set_vector(Field::velocity, i, gradient * sim.particles.vector(Field::position, i));
+}
+
+void set_deviator(Simulation<3>& sim, const Deviator<3>& s) {
+  for (int k = 0; k < 5; ++k) std::ranges::fill(sim.particles.column(Field::deviatoric_stress, k), s[k]);
+}
+
+std::size_t middle(const Simulation<3>& sim) {
+  std::size_t i = 0;
+  while (sim.particles.vector(Field::position, i).norm() > 1e-3) ++i;
+  return i;
+}
+
+Mat<3> rate_of_stress(const Simulation<3>& sim, std::size_t i) {
+  Deviator<3> rate;
+  for (int k = 0; k < 5; ++k) rate[k] = sim.particles.column(Field::stress_rate, k)[i];
+  return full_tensor<3>(rate);
+}
+
+Mat<3> some_flow() {
+  Mat<3> A;
+  A << -3, 1, 2, 0.5, -1, 4, -2, 0.25, 1;
+  return 1000 * A;
+}
+const Deviator<3> some_stress{1e6, -3e6, 2e6, 0.5e6, -1e6};
+
+TEST(StrainRates, AreContinuityAndTheJaumannRateOfHookesLaw) {
+  const auto sim = cube("aluminium");
+  const Mat<3> A = some_flow();
+  set_flow(*sim, A);
+  set_deviator(*sim, some_stress);
+  evaluate(*sim);
+  const std::size_t i = middle(*sim);
+  const double rho = sim->particles.column(Field::density)[i], G = sim->materials[0].elastic->shear_modulus;
+  EXPECT_NEAR(sim->particles.column(Field::density_rate)[i], -rho * A.trace(), 1e-9 * rho * A.norm());
+  const Mat<3> strain = 0.5 * (A + A.transpose()), spin = 0.5 * (A - A.transpose()), S = full_tensor<3>(some_stress);
+  const Mat<3> expected = 2 * G * (strain - strain.trace() / 3 * Mat<3>::Identity()) + spin * S - S * spin;
+  EXPECT_LT((rate_of_stress(*sim, i) - expected).norm(), 1e-9 * expected.norm());
+}
+
+TEST(StrainRates, OfACrushedBodyAreThoseOfItsSolid) {
+  const auto sim = cube("pumice");
+  for (double& rho : sim->particles.column(Field::density)) rho *= 1.5;
+  const Mat<3> A = some_flow();
+  set_flow(*sim, A);
+  set_deviator(*sim, some_stress);
+  evaluate(*sim);
+  const auto& p = sim->particles;
+  const std::size_t i = middle(*sim);
+  const Material& pumice = sim->materials[0];
+  const double rho = p.column(Field::density)[i], e = p.column(Field::specific_energy)[i],
+               alpha = p.column(Field::distension)[i], P = p.column(Field::pressure)[i];
+  ASSERT_LT(alpha, 0.9 * pumice.porosity->initial_distension());
+  // How fast the pores close when the body is compressed a little more, without heat coming in.
+  const double more = 1e-6;
+  const double next = std::visit(
+      [&](const auto& eos) {
+        return solve_distension(pumice.porosity->curve, eos, rho * (1 + more), e + P / rho * more, alpha,
+                                DistensionSolver::bisection, 1e-14)
+            .alpha;
+      },
+      pumice.eos);
+  const double closing = (next / alpha - 1) / more;  // d(ln alpha)/d(ln rho)
+  EXPECT_NEAR(p.column(Field::stress_factor)[i], 1 + closing, 1e-4);
+
+  const Mat<3> strain = 0.5 * (A + A.transpose()), spin = 0.5 * (A - A.transpose()), S = full_tensor<3>(some_stress);
+  const Mat<3> expected = 2 * pumice.elastic->shear_modulus / alpha * (1 + closing) *
+                              (strain - strain.trace() / 3 * Mat<3>::Identity()) +
+                          spin * S - S * spin + closing * A.trace() * S;
+  EXPECT_LT((rate_of_stress(*sim, i) - expected).norm(), 1e-3 * expected.norm());
+}
+
+TEST(ShearSwitch, IsOneInCompressionAndSmallInRotation) {
+  const auto sim = cube("aluminium");
+  const std::size_t i = middle(*sim);
+  const auto switch_in = [&](const Mat<3>& flow) {
+    set_flow(*sim, flow);
+    evaluate(*sim);
+    return sim->particles.column(Field::shear_switch)[i];
+  };
+  Mat<3> spin = Mat<3>::Zero();
+  spin(0, 1) = -1e6;
+  spin(1, 0) = 1e6;
+  const double floor =
+      1e-4 * sim->particles.column(Field::sound_speed)[i] / sim->particles.column(Field::smoothing_length)[i];
+  EXPECT_LT(switch_in(spin), 1e-6);
+  EXPECT_NEAR(switch_in(-1e6 * Mat<3>::Identity()), 3e6 / (3e6 + floor), 1e-6);
+  EXPECT_NEAR(switch_in(spin - 1e6 * Mat<3>::Identity()), 3e6 / (3e6 + 2e6 + floor), 1e-6);
+}
+
+TEST(SmoothingLengths, StayWithinTheirBounds) {
+  const auto sim = cube("aluminium");
+  auto h = sim->particles.column(Field::smoothing_length), sum = sim->particles.column(Field::neighbour_sum);
+  const double h0 = sim->scene.numerics.nodes_per_h * 1e-3;
+  std::ranges::fill(sum, 0.0);  // nobody near: grow
+  for (int k = 0; k < 20; ++k) smoothing_lengths(*sim);
+  EXPECT_NEAR(h[middle(*sim)], sim->scene.numerics.smoothing_growth * h0, 1e-9 * h0);
+  std::ranges::fill(sum, 1e9);  // crowded: shrink
+  for (int k = 0; k < 20; ++k) smoothing_lengths(*sim);
+  EXPECT_NEAR(h[middle(*sim)], 0.25 * h0, 1e-9 * h0);
+}
+
+}  // namespace
+}  // namespace ejecta
