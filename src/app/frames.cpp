@@ -143,6 +143,7 @@ template <int Dim>
 void Frames<Dim>::resume(Simulation<Dim>& sim) {
   const double interval = sim.scene.time_end / (sim.scene.insitu.frames - 1);
   while (next_ <= sim.clock.time) next_ += interval;
+  if (sim.scene.fragments.enabled) find_fragments(sim);
 }
 
 template <int Dim>
@@ -150,11 +151,14 @@ void Frames<Dim>::observe(Simulation<Dim>& sim, bool last) {
   const double interval = sim.scene.time_end / (sim.scene.insitu.frames - 1);
   const bool due = sim.clock.time >= next_ - 1e-9 * interval;
   if ((!due && !last) || sim.clock.step == last_drawn_) return;
+  while (next_ <= sim.clock.time * (1 + 1e-12)) next_ += interval;
+  if (!last && ++passed_over_ < stride_) return;
+  passed_over_ = 0;
   last_drawn_ = sim.clock.step;
   ++drawn_;
   if (sim.scene.fragments.enabled) sim.timers.time("in situ: fragments", [&] { find_fragments(sim); });
-  sim.timers.time("in situ: slice", [&] { sample(sim); });
   if (sim.scene.insitu.enabled) {
+    sim.timers.time("in situ: slice", [&] { sample(sim); });
     sim.timers.time("in situ: images", [&] {
       if (bridge_) {
         draw_with_catalyst(sim);
@@ -162,20 +166,20 @@ void Frames<Dim>::observe(Simulation<Dim>& sim, bool last) {
         draw_without_gl(sim);
       }
     });
+    govern(sim);
   }
   collect_compaction(sim);
-  govern(sim);
-  while (next_ <= sim.clock.time * (1 + 1e-12)) next_ += interval * stretch_;
   if (last) write_compaction_tables(sim);
 }
 
-/// Doubles the time between frames once in-situ work takes more than its share of the wall time.
+/// Doubles the time between frames once in-situ work takes more than its share of the wall time. Steps still end at the
+/// times of the frames passed over, so that the result of a run does not depend on the speed of the machine.
 template <int Dim>
 void Frames<Dim>::govern(const Simulation<Dim>& sim) {
   const double spent = insitu_seconds(sim.timers), share = spent / (spent + sim.wall_seconds);
   constexpr int frames_before_judging = 5;  // the first frame pays for starting the renderer
   if (++frame_ < frames_before_judging || share <= sim.scene.insitu.max_share) return;
-  stretch_ *= 2;
+  stride_ *= 2;
   frame_ = 0;
   warn(fmt::format("in-situ work takes {:.0f} % of the wall time (insitu.max_share = {:.0f} %): time between frames "
                    "doubled", 100 * share, 100 * sim.scene.insitu.max_share));
@@ -302,10 +306,10 @@ void Frames<Dim>::draw_without_gl(const Simulation<Dim>& sim) {
     panels.push_back({field.name, field.unit, values, range.min, range.max, map_of(field.name)});
   }
   const std::filesystem::path images = folder_ / "images";
+  if (!index_) index_.emplace(images);
   const std::filesystem::path file = images / fmt::format("slice_{:06d}.png", sim.clock.step);
   write_panels(file, sim.scene.insitu.image_width, sim.scene.insitu.image_height, grid_, panels,
                {sim.scene.title, sim.clock.time, sim.scene.time_end, {"x", Dim == 3 ? "z" : "y"}});
-  if (!index_) index_.emplace(images);
   images_ += static_cast<int>(index_->add_new_images(sim.clock.step, sim.clock.time).size());
 }
 

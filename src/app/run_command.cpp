@@ -114,6 +114,9 @@ void conclude(Simulation<Dim>& sim, const Frames<Dim>& frames, const Job& job, i
       spdlog::info("fragments at linking length {:.2f}: {}, largest {:.2f} %, dust {:.1f} % of all mass", s.linking_length,
                    s.fragments, 100 * s.largest_mass_fraction, 100 * s.dust_mass_fraction);
   }
+  if (sim.unconverged > 0)
+    spdlog::warn("the distension solver {} failed to converge in {} particle-steps", name_of(sim.scene.numerics.distension_solver),
+                 sim.unconverged);
   FigureSettings figures;
   figures.title = sim.scene.title;
   figures.resolution_limit = sim.scene.fragments.min_particles * sim.particles.column(Field::mass)[0];

@@ -73,10 +73,10 @@ Tables<Dim>::Tables(const Simulation<Dim>& sim, const std::filesystem::path& fol
                     std::optional<double> resume_at)
     : interval_(is_set(sim.scene.output.history_interval) ? sim.scene.output.history_interval
                                                           : sim.scene.time_end / 200),
-      next_(resume_at.value_or(0)),
       frames_(frames),
       history_(folder / "history.csv", Dim, resume_at),
       context_(fragment_context(sim)) {
+  while (resume_at && next_ <= *resume_at) next_ += interval_;
   if (sim.scene.fragments.enabled) largest_.emplace(folder / "largest_fragment.csv", resume_at);
 }
 

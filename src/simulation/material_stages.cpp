@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <algorithm>
 #include <cmath>
 
 #include "base/parallel.hpp"
@@ -32,7 +31,8 @@ void porous_state(Simulation<Dim>& sim, const Material& material, const EosT& eo
   const auto rho = p.column(Field::density), e = p.column(Field::specific_energy);
   auto pressure = p.column(Field::pressure), sound = p.column(Field::sound_speed), alpha = p.column(Field::distension);
   const bool coupled = p.has(Field::stress_factor);
-  parallel_for(range.begin, range.end, [&](std::size_t i) {
+  sim.unconverged += parallel_sum<std::int64_t>(range.size(), [&](std::size_t k) -> std::int64_t {
+    const std::size_t i = range.begin + k;
     const DistensionResult r = solve_distension(porosity.curve, eos, rho[i], e[i], alpha[i],
                                                 numerics.distension_solver, numerics.distension_tolerance);
     alpha[i] = r.alpha;
@@ -45,6 +45,7 @@ void porous_state(Simulation<Dim>& sim, const Material& material, const EosT& eo
     if (coupled)
       p.column(Field::stress_factor)[i] =
           porosity.stress_factor ? ejecta::stress_factor(porosity.curve, r.solid, rho[i], r.alpha) : 1.0;
+    return r.converged ? 0 : 1;
   });
 }
 

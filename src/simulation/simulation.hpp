@@ -67,6 +67,7 @@ struct Simulation {
   double lists_built_at = 0;                  ///< s
   double candidates_when_sorted = 0;
   std::int64_t list_builds = 0, sorts = 0;
+  std::int64_t unconverged = 0;               ///< particle-steps in which the distension solver failed (plain Newton may)
   Clock clock;
   TimeStepVote vote{0, "start", 0};
   Totals initial;                             ///< conserved quantities at the start

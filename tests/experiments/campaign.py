@@ -8,6 +8,7 @@ interruption. Tables (CSV and Markdown) and figures (gnuplot, ffmpeg) end up in 
 --quick: the coarsest spacing with one seed. --only: runs whose name contains NAME; --report: no runs, results only.
 """
 import argparse
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -16,6 +17,10 @@ import results
 from cases import cases
 
 ROOT = Path(__file__).resolve().parents[2]
+
+
+def log_of(folder):
+    return folder.parent / (folder.name + ".log")
 
 
 def run(case, binary, folder, threads):
@@ -28,8 +33,10 @@ def run(case, binary, folder, threads):
         command += ["--set", f"{key}={value}"]
     print(f"{case.name}: {' '.join(command)}", flush=True)
     folder.parent.mkdir(parents=True, exist_ok=True)
-    with open(folder.with_suffix(".log"), "w") as log:
-        code = subprocess.run(command, stdout=log, stderr=subprocess.STDOUT).returncode
+    with open(log_of(folder), "w") as log:
+        # Threads that wait asleep leave the cores to others; spinning ones are slow where cores are shared.
+        environment = os.environ | {"OMP_WAIT_POLICY": "passive"}
+        code = subprocess.run(command, stdout=log, stderr=subprocess.STDOUT, env=environment).returncode
     if code != 0:
         print(f"{case.name}: exit {code}, see {folder.with_suffix('.log')}", file=sys.stderr)
     return code == 0

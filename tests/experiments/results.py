@@ -66,6 +66,7 @@ def outcome(case, folder):
         "spacing [mm]": case.spacing,
         "seed": case.seed,
         "particles": s["particles"],
+        "precision": s["precision"],
         "time [us]": round(1e6 * s["time_s"], 1),
         "largest [%]": round(100 * s["largest_fragment_mass_fraction"], 2),
         "its speed [m/s]": round(speed[0], 2) if speed else "",
@@ -92,7 +93,7 @@ def by_threshold(case, folder, binary, scratch):
             shutil.copytree(folder, copy, ignore=shutil.ignore_patterns("images", "*.mp4", "summary.json", "monitor"))
             command = [str(binary), "run", str(folder / "resolved.toml"), "--out", str(copy), "--restart", "--threads", "1",
                        "--set", f"fragments.damage_threshold={threshold}", "--set", "insitu.enabled=false"]
-            with open(copy.with_suffix(".log"), "w") as log:
+            with open(scratch / (copy.name + ".log"), "w") as log:
                 subprocess.run(command, stdout=log, stderr=subprocess.STDOUT)
         if finished(copy):
             pieces = table(copy / "fragments.csv")

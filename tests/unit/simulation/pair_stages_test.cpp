@@ -72,7 +72,8 @@ TEST(StrainRates, AreContinuityAndTheJaumannRateOfHookesLaw) {
 
 TEST(StrainRates, OfACrushedBodyAreThoseOfItsSolid) {
   const auto sim = cube("pumice");
-  for (double& rho : sim->particles.column(Field::density)) rho *= 1.5;
+  // Nearly compact: earlier all the strain closes pores and the solid sees none of it.
+  for (double& rho : sim->particles.column(Field::density)) rho *= 3.2;
   const Mat<3> A = some_flow();
   set_flow(*sim, A);
   set_deviator(*sim, some_stress);
@@ -93,6 +94,7 @@ TEST(StrainRates, OfACrushedBodyAreThoseOfItsSolid) {
       },
       pumice.eos);
   const double closing = (next / alpha - 1) / more;  // d(ln alpha)/d(ln rho)
+  EXPECT_GT(1 + closing, 0.01);
   EXPECT_NEAR(p.column(Field::stress_factor)[i], 1 + closing, 1e-4);
 
   const Mat<3> strain = 0.5 * (A + A.transpose()), spin = 0.5 * (A - A.transpose()), S = full_tensor<3>(some_stress);
