@@ -94,12 +94,17 @@ DistensionResult search_from_above(Problem<EosT>& problem) {
 template <class EosT>
 DistensionResult safe_newton(Problem<EosT>& problem, Trial t) {
   constexpr int max_steps = 60;
+  constexpr double close_enough = 1e-4;  // of the range: the curve is as good as straight, so its tangent serves as well
   double low = 1, high = problem.alpha_old;
   bool low_known = false;
   for (int step = 0; step < max_steps; ++step) {
     const bool falling = t.dP_dalpha * t.alpha < -1e-6 * std::abs(t.pressure);  // not just by rounding, as in vapour
     if (falling && t.pressure > problem.curve.elastic_pressure) break;
-    double next = falling ? high : problem.curve.meet(t.alpha, t.pressure, std::max(t.dP_dalpha, 0.0));
+    const double ordinary = t.alpha - t.residual / t.slope;
+    const bool close = t.slope > 1 && std::abs(ordinary - t.alpha) < close_enough * (problem.alpha_old - 1);
+    double next = falling ? high
+                  : close ? ordinary
+                          : problem.curve.meet(t.alpha, t.pressure, std::max(t.dP_dalpha, 0.0));
     if (next <= low && !low_known) {
       next = low;
       low_known = true;
