@@ -9,7 +9,6 @@
 #include "base/errors.hpp"
 #include "insitu/pipelines.hpp"
 #include "output/fragment_files.hpp"
-#include "render/image.hpp"
 #include "schemes/kernels.hpp"
 
 namespace ejecta {
@@ -111,12 +110,14 @@ Frames<Dim>::Frames(const Simulation<Dim>& sim, std::filesystem::path folder, bo
     : folder_(std::move(folder)), view_(choose_view(sim.scene)), ranges_(default_ranges(sim.scene, sim.materials)) {
   const InSitu& insitu = sim.scene.insitu;
   std::filesystem::create_directories(folder_ / "images");
-  const int panels = static_cast<int>(slice_fields(sim.particles).size());
-  const auto [width, height] = panel_pixels(insitu.image_width, insitu.image_height, panels);
-  const double across = Dim == 3 ? view_.center[2] : view_.center[1];
-  // The picture must hold view_size in its smaller direction too.
-  const double visible = view_.size * std::max(1.0, static_cast<double>(width) / height);
-  grid_ = centred_grid(width, height, {view_.center[0], across}, visible);
+  auto grid_of = [&](int panels) {
+    const auto [width, height] = panel_pixels(insitu.image_width, insitu.image_height, panels);
+    // The picture must hold view_size in its smaller direction too.
+    const double visible = view_.size * std::max(1.0, static_cast<double>(width) / height);
+    return centred_grid(width, height, {view_.center[0], view_.center[Dim == 3 ? 2 : 1]}, visible);
+  };
+  grid_ = grid_of(static_cast<int>(slice_fields(sim.particles).size()));
+  column_grid_ = grid_of(1);
   if (Dim == 2) zeros_.assign(sim.particles.size(), 0.0);
   if (!catalyst) return;
   PipelineSettings settings;
@@ -218,6 +219,23 @@ void Frames<Dim>::sample(const Simulation<Dim>& sim) {
     return KernelShape{K::support, [](double q) { return K::template norm<Dim> * K::value(q); }};
   });
   slice_ = sample_slice(view, fields, kernel, grid_, view_.center[1]);
+  if (!sim.scene.insitu.column_density) return;
+  const SampledImage column = sample_column_density(view, kernel, column_grid_);
+  const SampledImage::Field& field = column.field("column_density");
+  // Fixed by the first frame: what lies undisturbed in the line of sight.
+  if (column_density_max_ == 0)
+    for (double value : field.components[0]) column_density_max_ = std::max(column_density_max_, value);
+  const Panel panel{"column density", field.unit, field.components[0], 0, column_density_max_, ColourMap::viridis};
+  paint(sim, "column", column_grid_, {&panel, 1});
+}
+
+/// Writes a picture by Ejecta's own painter.
+template <int Dim>
+void Frames<Dim>::paint(const Simulation<Dim>& sim, std::string_view name, const PixelGrid& grid,
+                        std::span<const Panel> panels) {
+  const std::filesystem::path file = folder_ / "images" / fmt::format("{}_{:06d}.png", name, sim.clock.step);
+  write_panels(file, sim.scene.insitu.image_width, sim.scene.insitu.image_height, grid, panels,
+               {sim.scene.title, sim.clock.time, sim.scene.time_end, {"x", Dim == 3 ? "z" : "y"}});
 }
 
 template <int Dim>

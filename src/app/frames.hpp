@@ -6,6 +6,7 @@
 
 #include "insitu/catalyst_bridge.hpp"
 #include "insitu/image_index.hpp"
+#include "render/image.hpp"
 #include "render/sampling.hpp"
 #include "simulation/fragments.hpp"
 #include "simulation/simulation.hpp"
@@ -54,6 +55,7 @@ class Frames final : public Observer<Dim> {
   void draw_without_gl(const Simulation<Dim>& sim);
   std::vector<Channel> channels(const Simulation<Dim>& sim);
   Channel fragment_channel();
+  void paint(const Simulation<Dim>& sim, std::string_view name, const PixelGrid& grid, std::span<const Panel> panels);
   void warn(std::string text);
   void govern(const Simulation<Dim>& sim);
   void collect_compaction(const Simulation<Dim>& sim);
@@ -62,7 +64,8 @@ class Frames final : public Observer<Dim> {
   std::filesystem::path folder_;
   View view_;
   std::map<std::string, ColourRange> ranges_;
-  PixelGrid grid_;
+  PixelGrid grid_, column_grid_;
+  double column_density_max_ = 0;  ///< end of the colour bar [kg/m^2]
   std::unique_ptr<CatalystBridge> bridge_;
   FragmentTracker tracker_;
   std::optional<FragmentTable> fragments_;

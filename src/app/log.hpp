@@ -5,6 +5,9 @@
 
 namespace ejecta {
 
+/// Messages go to stderr.
+void log_to_terminal();
+
 /// Messages go to stderr, and from here on to run.log in the run folder too.
 void log_to_folder(const std::filesystem::path& folder, bool append);
 

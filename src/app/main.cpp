@@ -31,6 +31,7 @@ int main(int argc, char** argv) {
   using namespace ejecta;
   limit_spinning(argv);
   if (argc == 2 && std::string_view(argv[1]) == "gl-probe") return run_gl_probe();
+  log_to_terminal();
 
   CLI::App app{"Ejecta: impact, porous crushing and fragmentation by smoothed particles, seen while it runs."};
   app.require_subcommand(1);
@@ -43,7 +44,7 @@ int main(int argc, char** argv) {
     command->add_option("--set", options.overrides, "replace a value of the scene, e.g. --set time.end=20us (repeatable)")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
-    command->add_option("--threads", threads, "threads (same as --set run.threads=N)")->check(CLI::PositiveNumber);
+    command->add_option("--threads", threads, "threads (same as --set run.threads=N)")->check(CLI::Range(1, 4096));
   };
   CLI::App* run = app.add_subcommand("run", "run a scene; images, tables and movies go to the run folder");
   run->add_option("scene", options.scene_file, "scene file (TOML)")->required();

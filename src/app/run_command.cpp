@@ -138,6 +138,8 @@ template <int Dim>
 int run_in(const Job& job) {
   auto sim = set_up<Dim>(job.scene, job.materials.list);
   prepare_folder(job);
+  if (job.scene.insitu.enabled && !job.catalyst)
+    spdlog::warn("no OpenGL here: Catalyst is left out, slices are drawn by Ejecta itself, all data are written");
   std::optional<double> resume_at;
   if (job.restart) {
     const Checkpoint checkpoint = read_checkpoint(*latest_checkpoint(job.folder / "checkpoints"));
@@ -161,6 +163,7 @@ int run_in(const Job& job) {
     watch.conclude(*sim, finished ? RunState::finished : RunState::stopped);
   } catch (const SimulationError& error) {
     spdlog::error("{}", error.what());
+    fs::create_directories(job.folder / "checkpoints");
     write_checkpoint(job.folder / fmt::format("checkpoints/failed_{:06d}.h5", sim->clock.step),
                      checkpoint_view(*sim, job.resolved));
     frames.observe(*sim, true);
@@ -192,7 +195,6 @@ int run_command(const RunOptions& options) {
     if (!job.catalyst) {
       if (job.scene.insitu.on_error == OnError::abort)
         throw InputError(job.scene.file + ": insitu.on_error: expected rendering to work here, got no OpenGL context");
-      spdlog::warn("no OpenGL here: Catalyst is left out, slices are drawn by Ejecta itself, all data are written");
     }
   }
   return job.scene.dimension == 2 ? run_in<2>(job) : run_in<3>(job);

@@ -53,7 +53,7 @@ void describe(Describer& d, InSitu& i) {
   d.flag("enabled", i.enabled, "images and statistics while the run goes on");
   d.integer("frames", i.frames, at_least(2), "equally spaced in simulated time, first and last included");
   d.texts("pipelines", i.pipelines, "Catalyst scripts beside the scene; none: the default set of the dimension");
-  d.texts("fields", i.fields, "further fields on channel particles");
+  d.flag("column_density", i.column_density, "also draw the mass per area seen along y (view `column`)");
   d.choice("on_error", i.on_error, "what a failing pipeline does to the run");
   d.number("max_share", i.max_share, "1", {.min = 0, .max = 1, .open_min = true},
            "frames are thinned out when they take more than this share of the wall time");
@@ -66,7 +66,8 @@ void describe(Describer& d, InSitu& i) {
 void describe(Describer& d, FragmentSettings& f) {
   d.flag("enabled", f.enabled, "find connected pieces during the run");
   d.number("linking_length", f.linking_length, "1", positive, "friends are nearer than this many mean particle sizes");
-  d.number("damage_threshold", f.damage_threshold, "1", between(0, 1), "particles damaged beyond this are dust");
+  d.number("damage_threshold", f.damage_threshold, "1", at_least(0),
+           "particles damaged beyond this are dust; above 1 damage cuts no links");
   d.integer("min_particles", f.min_particles, at_least(1), "smaller groups are dust");
 }
 

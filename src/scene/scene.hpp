@@ -75,7 +75,7 @@ struct InSitu {
   bool enabled = true;
   int frames = 60;                     ///< equally spaced in simulated time, first and last included
   std::vector<std::string> pipelines;  ///< Catalyst V2 scripts (paths); empty: the default set of the dimension
-  std::vector<std::string> fields;     ///< extra fields on channel `particles`
+  bool column_density = false;         ///< also draw the mass per area seen along y
   OnError on_error = OnError::continue_run;
   double max_share = 0.15;  ///< cadence is stretched when in-situ work exceeds this share of wall time
   int image_width = 960, image_height = 720;

@@ -2,8 +2,6 @@
 import csv
 import subprocess
 
-
-
 # What the largest fragment weighs [share of the target], and who says so.
 REFERENCES = {
     "pumice_impact": {"laboratory": 0.0996, "GASPHiA note": 0.0835},
@@ -44,7 +42,7 @@ def draw_distributions(scene, cases, out, folder):
         extra = ["0.6*x**-0.6 with lines dashtype 4 linecolor rgb 'gray50' title 'slope -3/5, fine fragments of the laboratory'"]
     who = ", ".join(f"{name} {100 * share:g} %" for name, share in REFERENCES[scene].items())
     gnuplot(folder / f"{scene}_distribution", TITLES[scene],
-            ["set logscale xy", "set key bottom left", "set xrange [1e-5:1]", "set yrange [0.8:*]",
+            ["set logscale xy", "set format '%g'", "set key bottom left", "set xrange [1e-5:1]", "set yrange [0.8:*]",
              f"set xlabel 'fragment mass / target mass   (dashed: largest, {who})'",
              "set ylabel 'fragments at least as heavy'", *reference_lines(scene, True), "plot " + ", ".join(curves + extra)])
 

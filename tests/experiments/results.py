@@ -10,7 +10,7 @@ import subprocess
 import figures
 
 THRESHOLDS = [0.5, 0.9, 0.99, 1.01]  # fragments.damage_threshold; beyond 1 damage cuts no links at all
-SETTLED = 0.01  # of the target's mass
+SETTLED = 0.1  # of the last value
 LINKING = re.compile(r"linking length ([\d.]+): (\d+), largest ([\d.]+) %, dust ([\d.]+) %")
 
 
@@ -41,7 +41,7 @@ def settled_at(history):
     """Time [us] from which on the largest fragment stays within SETTLED of its last value."""
     time, largest = history["time"], history["largest fragment mass fraction"]
     late = len(largest)
-    while late > 0 and abs(largest[late - 1] - largest[-1]) <= SETTLED:
+    while late > 0 and abs(largest[late - 1] - largest[-1]) <= SETTLED * largest[-1]:
         late -= 1
     return 1e6 * time[min(late, len(time) - 1)]
 

@@ -35,8 +35,8 @@ void per_state(benchmark::State& run, Solve&& solve) {
   const std::vector<State> states = random_states();
   for (auto _ : run)
     for (const State& s : states) benchmark::DoNotOptimize(solve(s));
-  run.counters["states_per_s"] = benchmark::Counter(static_cast<double>(states.size()),
-                                                    benchmark::Counter::kIsIterationInvariantRate);
+  run.counters["states_per_s"] =
+      benchmark::Counter(static_cast<double>(states.size()), benchmark::Counter::kIsIterationInvariantRate);
 }
 
 void eos_tillotson(benchmark::State& run) {

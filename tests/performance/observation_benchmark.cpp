@@ -39,8 +39,7 @@ void slice_image(benchmark::State& state) {
   const KernelShape kernel{WendlandC2::support, [](double q) { return WendlandC2::norm<3> * WendlandC2::value(q); }};
   const PixelGrid grid = centred_grid(480, 360, {0, 0}, 0.12);
   for (auto _ : state) benchmark::DoNotOptimize(sample_slice(view, fields, kernel, grid));
-  state.counters["pixels_per_s"] =
-      benchmark::Counter(480 * 360, benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["pixels_per_s"] = benchmark::Counter(480 * 360, benchmark::Counter::kIsIterationInvariantRate);
 }
 
 BENCHMARK(fragment_search)->Unit(benchmark::kMillisecond);

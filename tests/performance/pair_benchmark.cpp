@@ -62,22 +62,22 @@ void pair_list_build(benchmark::State& state) {
   const auto sim = body({});
   PairLists<3> lists;
   for (auto _ : state) lists.build(sim->particles, {2, 8, 0, {}});
-  state.counters["particles_per_s"] = benchmark::Counter(static_cast<double>(sim->particles.size()),
-                                                         benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["particles_per_s"] =
+      benchmark::Counter(static_cast<double>(sim->particles.size()), benchmark::Counter::kIsIterationInvariantRate);
 }
 void spatial_sort(benchmark::State& state) {
   const auto sim = body({});
   std::vector<std::uint32_t> order;
   for (auto _ : state) spatial_order(sim->particles, 8, order);
-  state.counters["particles_per_s"] = benchmark::Counter(static_cast<double>(sim->particles.size()),
-                                                         benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["particles_per_s"] =
+      benchmark::Counter(static_cast<double>(sim->particles.size()), benchmark::Counter::kIsIterationInvariantRate);
 }
 /// All stages of a step.
 void whole_step(benchmark::State& state) {
   const auto sim = body({});
   for (auto _ : state) step(*sim, no_limit);
-  state.counters["particles_per_s"] = benchmark::Counter(static_cast<double>(sim->particles.size()),
-                                                         benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["particles_per_s"] =
+      benchmark::Counter(static_cast<double>(sim->particles.size()), benchmark::Counter::kIsIterationInvariantRate);
 }
 
 BENCHMARK(pair_rates_double)->Unit(benchmark::kMillisecond);

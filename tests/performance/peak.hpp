@@ -6,7 +6,8 @@
 
 namespace ejecta {
 
-/// Floating-point operations per second of one core: a loop of fused multiply-adds on registers, the best of a few tries.
+/// Floating-point operations per second of one core: a loop of fused multiply-adds on registers, the best of a few
+/// tries.
 template <class V>
 double measured_peak() {
   constexpr int chains = 12, rounds = 200000, lanes = sizeof(V) / sizeof(V{}[0]);  // enough chains to hide the latency

@@ -40,16 +40,21 @@ double inverse(double a) { return 1 / a; }
 double inverse_root(double a) { return 1 / std::sqrt(a); }
 
 TEST(Simd, ReciprocalIsGoodToAFewUnitsInTheLastPlace) {
-  EXPECT_LT((worst_error<Double8, double>(-100, 100, [](Double8 a) { return simd::reciprocal(a); }, inverse)),
+  EXPECT_LT((worst_error<Double8, double>(
+                -100, 100, [](Double8 a) { return simd::reciprocal(a); }, inverse)),
             few_units);
-  EXPECT_LT((worst_error<Float16, float>(-30, 30, [](Float16 a) { return simd::reciprocal(a); }, inverse)), few_units);
+  EXPECT_LT((worst_error<Float16, float>(
+                -30, 30, [](Float16 a) { return simd::reciprocal(a); }, inverse)),
+            few_units);
 }
 
 TEST(Simd, ReciprocalRootIsGoodToAFewUnitsInTheLastPlace) {
   // The pair loop hands in squared distances with a guard of 1e-200 (1e-30 in single precision).
-  EXPECT_LT((worst_error<Double8, double>(-200, 200, [](Double8 a) { return simd::reciprocal_sqrt(a); }, inverse_root)),
+  EXPECT_LT((worst_error<Double8, double>(
+                -200, 200, [](Double8 a) { return simd::reciprocal_sqrt(a); }, inverse_root)),
             few_units);
-  EXPECT_LT((worst_error<Float16, float>(-30, 30, [](Float16 a) { return simd::reciprocal_sqrt(a); }, inverse_root)),
+  EXPECT_LT((worst_error<Float16, float>(
+                -30, 30, [](Float16 a) { return simd::reciprocal_sqrt(a); }, inverse_root)),
             few_units);
 }
 

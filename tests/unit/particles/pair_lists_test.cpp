@@ -34,8 +34,7 @@ void random_velocities(Particles<Dim>& p, double speed, unsigned seed) {
 template <int Dim>
 void drift(Particles<Dim>& p, double dt) {
   for (int a = 0; a < Dim; ++a)
-    for (std::size_t i = 0; i < p.size(); ++i)
-      p.column(Field::position, a)[i] += dt * p.column(Field::velocity, a)[i];
+    for (std::size_t i = 0; i < p.size(); ++i) p.column(Field::position, a)[i] += dt * p.column(Field::velocity, a)[i];
 }
 
 TEST(PairLists, NameEveryPairWithinTheLargerSupport) {

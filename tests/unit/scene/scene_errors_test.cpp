@@ -61,8 +61,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{"not_a_flag", "", "[insitu]\nenabled = \"yes\"\n",
                  "s.toml:18: insitu.enabled: expected true or false, got \"yes\""},
         BadScene{"not_a_text", "name = \"test\"", "name = 3", "s.toml:2: scene.name: expected a text in quotes, got 3"},
-        BadScene{"not_a_list", "", "[insitu]\nfields = \"mass\"\n",
-                 "s.toml:18: insitu.fields: expected a list of texts such as [\"a\", \"b\"], got \"mass\""},
+        BadScene{"not_a_list", "", "[insitu]\npipelines = \"mass.py\"\n",
+                 "s.toml:18: insitu.pipelines: expected a list of texts such as [\"a\", \"b\"], got \"mass.py\""},
         BadScene{
             "not_a_vector", "[0, \"4 cm\", 0]", "[0]",
             "s.toml:15: bodies[1].center: expected two or three components, each a length such as \"1.2 mm\", got [0]"},

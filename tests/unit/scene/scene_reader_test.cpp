@@ -33,7 +33,7 @@ precision = "mixed"
 balsara = true
 courant = 0.3
 [insitu]
-fields = ["mass", "id"]
+column_density = true
 on_error = "abort"
 [insitu.ranges]
 pressure = ["-1 MPa", "2 GPa"]
@@ -47,7 +47,7 @@ seed = 12345678901
   EXPECT_EQ(scene.numerics.kernel, Kernel::quintic_spline);
   EXPECT_EQ(scene.numerics.precision, Precision::mixed);
   EXPECT_TRUE(scene.numerics.balsara);
-  EXPECT_EQ(scene.insitu.fields, (std::vector<std::string>{"mass", "id"}));
+  EXPECT_TRUE(scene.insitu.column_density);
   EXPECT_EQ(scene.insitu.on_error, OnError::abort);
   EXPECT_EQ(scene.insitu.ranges.at("pressure").min, -1e6);
   EXPECT_EQ(scene.insitu.ranges.at("pressure").max, 2e9);
@@ -98,7 +98,7 @@ TEST(Overrides, OfMaterialsAreKeptForTheMaterialReader) {
 TEST(SceneToml, ReadsBackAsTheSameScene) {
   for (const std::string& text :
        {valid_scene,
-        valid_scene + "[insitu]\nfields = [\"id\"]\n[insitu.ranges]\npressure = [0.1, 0.30000000000000004]\n"}) {
+        valid_scene + "[insitu]\ncolumn_density = true\n[insitu.ranges]\npressure = [0.1, 0.30000000000000004]\n"}) {
     const Scene scene =
         parse_scene(text, "s.toml", {"scene.title=quo\"te \\ and tab\t", "bodies.target.center=0.1 0.2 0.3 um"});
     const std::string echo = scene_toml(scene);

@@ -24,7 +24,9 @@ double integral(double end, F&& f) {
 }
 
 template <class K>
-double slope(double q) { return q * K::slope_over_q(q, 1 / q); }
+double slope(double q) {
+  return q * K::slope_over_q(q, 1 / q);
+}
 
 TYPED_TEST(KernelTest, IsNormalised) {
   using K = TypeParam;
@@ -39,8 +41,9 @@ TYPED_TEST(KernelTest, SlopeIsTheDerivativeOfTheValue) {
   using K = TypeParam;
   for (double q = 0.0137; q < K::support; q += 0.0311) {
     constexpr double step = 1e-4;
-    const double difference = (-K::value(q + 2 * step) + 8 * K::value(q + step) - 8 * K::value(q - step) +
-                               K::value(q - 2 * step)) / (12 * step);
+    const double difference =
+        (-K::value(q + 2 * step) + 8 * K::value(q + step) - 8 * K::value(q - step) + K::value(q - 2 * step)) /
+        (12 * step);
     EXPECT_NEAR(slope<K>(q), difference, 1e-9 * K::value(0.0)) << "q = " << q;
     EXPECT_LT(slope<K>(q), 0) << "q = " << q;
   }

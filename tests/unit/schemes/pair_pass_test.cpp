@@ -12,21 +12,6 @@ namespace {
 
 constexpr Kernel all_kernels[] = {Kernel::cubic_spline, Kernel::quintic_spline, Kernel::wendland_c2,
                                   Kernel::wendland_c4};
-constexpr double spacing = 0.0013;
-
-PairPassSettings settings_of(Kernel kernel, Precision precision, bool stress, bool correction) {
-  PairPassSettings s;
-  s.kernel = kernel;
-  s.precision = precision;
-  s.stress = stress;
-  s.velocity_gradient = true;
-  s.gradient_correction = correction;
-  s.viscosity_alpha = 1.5;
-  s.viscosity_beta = 2.5;
-  s.length_unit = 1.0 / 1024;
-  return s;
-}
-
 std::vector<double> random_shares(std::size_t n, unsigned seed) {
   Uniform uniform(seed);
   std::vector<double> shares(n);
@@ -42,7 +27,7 @@ struct Errors {
 
 template <int Dim>
 Errors<Dim> errors_against_reference(std::size_t n, const PairPassSettings& settings) {
-  auto p = random_matter<Dim>(n, 21, spacing, settings.stress);
+  auto p = random_matter<Dim>(n, 21, settings.stress);
   sort_in_space(p, cluster_size(settings.precision));
   std::vector<double> intact;
   if (settings.stress) intact = random_shares(n, 22);
@@ -103,12 +88,13 @@ TEST(PairPass, RatesAreTheFormulasForGasAndSolidWithAndWithoutCorrection) {
 
 TEST(PairPass, LanesBeyondTheEndOfAClusterAddNothing) {
   for (const Precision precision : {Precision::double_precision, Precision::mixed})
-    for (const std::size_t n : {2u, 9u, 17u, 31u}) expect_formulas<3>(n, settings_of(Kernel::cubic_spline, precision, true, false));
+    for (const std::size_t n : {2u, 9u, 17u, 31u})
+      expect_formulas<3>(n, settings_of(Kernel::cubic_spline, precision, true, false));
 }
 
 TEST(PairPass, AGasWithoutGradientsHasTheSameRates) {
   for (const Precision precision : {Precision::double_precision, Precision::mixed}) {
-    auto p = random_matter<3>(200, 23, spacing, false);
+    auto p = random_matter<3>(200, 23, false);
     auto with = settings_of(Kernel::wendland_c2, precision, false, false), without = with;
     without.velocity_gradient = false;
     auto q = p;
@@ -127,8 +113,8 @@ TEST(PairPass, AGasWithoutGradientsHasTheSameRates) {
 TEST(PairPass, DensityIsTheSumOfMassesWeightedByTheKernel) {
   for (const Kernel kernel : all_kernels)
     for (const Precision precision : {Precision::double_precision, Precision::mixed}) {
-      auto p = random_matter<3>(200, 24, spacing, false);
-      auto q = random_matter<2>(150, 25, spacing, false);
+      auto p = random_matter<3>(200, 24, false);
+      auto q = random_matter<2>(150, 25, false);
       const auto settings = settings_of(kernel, precision, false, false);
       const double tolerance = precision == Precision::mixed ? 3e-6 : 3e-14;
       const auto check = [&](auto& particles, auto dim) {
@@ -159,7 +145,7 @@ TEST(PairPass, DensityIsTheSumOfMassesWeightedByTheKernel) {
 TEST(PairPass, MomentumIsExactInBothPrecisions) {
   for (const Precision precision : {Precision::double_precision, Precision::mixed})
     for (const bool stress : {false, true}) {
-      auto p = random_matter<3>(1500, 26, spacing, stress, 3);
+      auto p = random_matter<3>(1500, 26, stress, 3);
       sort_in_space(p, cluster_size(precision));
       run_rates(p, settings_of(Kernel::wendland_c2, precision, stress, false));
       Vec<3> total = Vec<3>::Zero();
@@ -177,7 +163,7 @@ TEST(PairPass, HeatingIsExactlyTheWorkOfTheForces) {
   // sum m (w + a.v) = 0 for any pair force: what is lost of kinetic energy is gained as heat.
   for (const Precision precision : {Precision::double_precision, Precision::mixed})
     for (const bool stress : {false, true}) {
-      auto p = random_matter<3>(1500, 27, spacing, stress);
+      auto p = random_matter<3>(1500, 27, stress);
       sort_in_space(p, cluster_size(precision));
       const auto settings = settings_of(Kernel::wendland_c2, precision, stress, true);
       run_rates(p, settings);
@@ -206,7 +192,7 @@ TEST(PairPass, EveryThreadCountGivesTheSameBits) {
     const auto settings = settings_of(Kernel::wendland_c4, precision, true, true);
     std::vector<Particles<3>> results;
     for_thread_counts([&](int) {
-      auto p = random_matter<3>(2000, 28, spacing, true);
+      auto p = random_matter<3>(2000, 28, true);
       sort_in_space(p, cluster_size(precision));
       const auto lists = run_rates(p, settings);
       make_pair_pass<3>(settings)->density(p, lists);
@@ -223,7 +209,7 @@ TEST(PairPass, TheCorrectedGradientOfALinearFlowIsExact) {
   A *= 1e4;
   for (const Kernel kernel : all_kernels)
     for (const Precision precision : {Precision::double_precision, Precision::mixed}) {
-      auto p = random_matter<3>(1000, 29, spacing, true);
+      auto p = random_matter<3>(1000, 29, true);
       for (std::size_t i = 0; i < p.size(); ++i)
         p.set_vector(Field::velocity, i, A * p.vector(Field::position, i) + Vec<3>(30, 20, 10));
       auto plain = p;
@@ -248,7 +234,7 @@ TEST(PairPass, AQuarterTurnTurnsTheRates) {
   // (x, y, z) -> (-y, x, z)
   const auto turn = [](const Vec<3>& v) { return Vec<3>(-v[1], v[0], v[2]); };
   const auto settings = settings_of(Kernel::wendland_c2, Precision::double_precision, true, true);
-  auto p = random_matter<3>(300, 30, spacing, true), q = p;
+  auto p = random_matter<3>(300, 30, true), q = p;
   for (std::size_t i = 0; i < p.size(); ++i) {
     q.set_vector(Field::position, i, turn(p.vector(Field::position, i)));
     q.set_vector(Field::velocity, i, turn(p.vector(Field::velocity, i)));
@@ -273,7 +259,7 @@ TEST(PairPass, AQuarterTurnTurnsTheRates) {
 TEST(PairPass, AParticleAloneFeelsNothing) {
   for (const Precision precision : {Precision::double_precision, Precision::mixed})
     for (const Kernel kernel : all_kernels) {
-      auto p = random_matter<3>(1, 31, spacing, true);
+      auto p = random_matter<3>(1, 31, true);
       const auto settings = settings_of(kernel, precision, true, true);
       const auto lists = run_rates(p, settings);
       EXPECT_EQ(p.vector(Field::acceleration, 0), Vec<3>(0, 0, 0));
@@ -282,7 +268,8 @@ TEST(PairPass, AParticleAloneFeelsNothing) {
       EXPECT_EQ(p.column(Field::approach_speed)[0], 0);
       EXPECT_EQ(velocity_gradient_of(p, 0), Mat<3>::Zero());
       make_pair_pass<3>(settings)->density(p, lists);
-      const double self = with_kernel(kernel, [](auto k) { return decltype(k)::template norm<3> * decltype(k)::value(0.0); });
+      const double self =
+          with_kernel(kernel, [](auto k) { return decltype(k)::template norm<3> * decltype(k)::value(0.0); });
       const double h = p.column(Field::smoothing_length)[0];
       EXPECT_NEAR(p.column(Field::density)[0] / (p.column(Field::mass)[0] * self / (h * h * h)), 1, 1e-6);
     }
@@ -291,7 +278,7 @@ TEST(PairPass, AParticleAloneFeelsNothing) {
 TEST(PairPass, CoincidentParticlesStayFinite) {
   for (const Precision precision : {Precision::double_precision, Precision::mixed})
     for (const Kernel kernel : all_kernels) {
-      auto p = random_matter<3>(4, 32, spacing, true);
+      auto p = random_matter<3>(4, 32, true);
       for (std::size_t i = 1; i < 4; ++i) p.set_vector(Field::position, i, p.vector(Field::position, 0));
       run_rates(p, settings_of(kernel, precision, true, true));
       for (std::size_t i = 0; i < 4; ++i) {
@@ -300,88 +287,6 @@ TEST(PairPass, CoincidentParticlesStayFinite) {
         EXPECT_TRUE(velocity_gradient_of(p, i).allFinite());
       }
     }
-}
-
-/// The particles and all their copies beyond the faces as particles of their own.
-template <int Dim>
-Particles<Dim> with_copies(const Particles<Dim>& p, const Boundary& boundary) {
-  struct Copy {
-    std::size_t source;
-    Vec<Dim> x, sign;
-  };
-  std::vector<Copy> copies;
-  for (std::size_t i = 0; i < p.size(); ++i) copies.push_back({i, p.vector(Field::position, i), Vec<Dim>::Ones()});
-  for (int a = 0; a < Dim; ++a) {
-    const auto k = static_cast<std::size_t>(a);
-    if (boundary.kind[k] == BoundaryKind::open) continue;
-    for (std::size_t c = 0, before = copies.size(); c < before; ++c)
-      for (const bool upper : {false, true}) {
-        Copy copy = copies[c];
-        if (boundary.kind[k] == BoundaryKind::periodic) {
-          copy.x[a] += (upper ? 1 : -1) * (boundary.max[k] - boundary.min[k]);
-        } else {
-          copy.x[a] = 2 * (upper ? boundary.max[k] : boundary.min[k]) - copy.x[a];
-          copy.sign[a] = -1;
-        }
-        copies.push_back(copy);
-      }
-  }
-  Particles<Dim> all;
-  all.allocate(copies.size(), p.fields());
-  for (std::size_t c = 0; c < copies.size(); ++c) {
-    for (const Field f : p.fields())
-      for (int k = 0; k < components(info(f).shape, Dim); ++k) all.column(f, k)[c] = p.column(f, k)[copies[c].source];
-    all.label(Label::id)[c] = static_cast<std::int32_t>(c);
-    all.set_vector(Field::position, c, copies[c].x);
-    const Vec<Dim> sign = copies[c].sign;
-    all.set_vector(Field::velocity, c, sign.cwiseProduct(p.vector(Field::velocity, copies[c].source)));
-    all.column(Field::deviatoric_stress, 2)[c] *= sign[0] * sign[1];
-    if constexpr (Dim == 3) {
-      all.column(Field::deviatoric_stress, 3)[c] *= sign[0] * sign[2];
-      all.column(Field::deviatoric_stress, 4)[c] *= sign[1] * sign[2];
-    }
-  }
-  all.set_material_ranges({{0, copies.size()}});
-  return all;
-}
-
-template <int Dim>
-void expect_images_act_like_copies(const std::array<BoundaryKind, 3>& kinds, Precision precision) {
-  auto settings = settings_of(Kernel::wendland_c2, precision, true, false);
-  const std::size_t n = Dim == 3 ? 400 : 200;
-  auto p = random_matter<Dim>(n, 33, spacing, true, 1.2);
-  // The cloud reaches from -0.3 to 0.7 of its edge.
-  const double edge = spacing * std::pow(static_cast<double>(n), 1.0 / Dim);
-  settings.boundary = {kinds, {-0.3 * edge, -0.3 * edge, -0.3 * edge}, {0.7 * edge, 0.7 * edge, 0.7 * edge}};
-  const auto copies = with_copies(p, settings.boundary);
-  const auto lists = run_rates(p, settings);
-  ASSERT_GT(lists.images().size(), n / 4);
-  Vec<Dim> total = Vec<Dim>::Zero();
-  double scale = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const Sums<Dim> sums = reference_rates(copies, settings, {}, i);
-    const double tolerance = precision == Precision::mixed ? 3e-6 : 1e-12;
-    EXPECT_LT((p.vector(Field::acceleration, i) - sums.acceleration).norm(), tolerance * sums.acceleration_scale);
-    EXPECT_NEAR(p.column(Field::heating)[i], sums.heating, tolerance * sums.heating_scale);
-    EXPECT_LT((velocity_gradient_of(p, i) - sums.gradient).norm(), tolerance * sums.gradient_scale);
-    total += p.column(Field::mass)[i] * p.vector(Field::acceleration, i);
-    scale += p.column(Field::mass)[i] * p.vector(Field::acceleration, i).norm();
-  }
-  const bool closed = std::count(kinds.begin(), kinds.end(), BoundaryKind::reflecting) == 0;
-  // An image's position is rounded once more than its source's, hence not to the last bit.
-  if (closed) {
-    EXPECT_LT(total.norm(), (precision == Precision::mixed ? 1e-8 : 1e-13) * scale);
-  }
-}
-
-TEST(PairPass, ImagesActLikeCopiesOfTheirSources) {
-  using enum BoundaryKind;
-  for (const Precision precision : {Precision::double_precision, Precision::mixed}) {
-    expect_images_act_like_copies<2>({periodic, periodic, open}, precision);
-    expect_images_act_like_copies<2>({reflecting, periodic, open}, precision);
-    expect_images_act_like_copies<3>({periodic, open, reflecting}, precision);
-    expect_images_act_like_copies<3>({reflecting, reflecting, reflecting}, precision);
-  }
 }
 
 }  // namespace

@@ -11,12 +11,28 @@
 
 namespace ejecta {
 
-/// n particles of a cloud with spacing about `spacing`; every field that rates() reads is random. Ranges of two materials.
+inline constexpr double spacing = 0.0013;  ///< of the test clouds [m]
+
+inline PairPassSettings settings_of(Kernel kernel, Precision precision, bool stress, bool correction) {
+  PairPassSettings s;
+  s.kernel = kernel;
+  s.precision = precision;
+  s.stress = stress;
+  s.velocity_gradient = true;
+  s.gradient_correction = correction;
+  s.viscosity_alpha = 1.5;
+  s.viscosity_beta = 2.5;
+  s.length_unit = 1.0 / 1024;
+  return s;
+}
+
+/// n particles of a cloud with that mean spacing; every field that rates() reads is random. Ranges of two
+/// materials.
 template <int Dim>
-Particles<Dim> random_matter(std::size_t n, unsigned seed, double spacing, bool stress, double h_spread = 1.5) {
-  std::vector<Field> fields{Field::smoothing_length, Field::density,        Field::pressure,
-                            Field::sound_speed,      Field::heating,        Field::neighbour_sum,
-                            Field::approach_speed,   Field::shear_switch,   Field::velocity_gradient};
+Particles<Dim> random_matter(std::size_t n, unsigned seed, bool stress, double h_spread = 1.5) {
+  std::vector<Field> fields{Field::smoothing_length, Field::density,      Field::pressure,
+                            Field::sound_speed,      Field::heating,      Field::neighbour_sum,
+                            Field::approach_speed,   Field::shear_switch, Field::velocity_gradient};
   if (stress) fields.push_back(Field::deviatoric_stress);
   Particles<Dim> p = random_cloud<Dim>(n, seed, spacing, h_spread * spacing, fields);
   Uniform uniform(seed + 1);
@@ -32,7 +48,8 @@ Particles<Dim> random_matter(std::size_t n, unsigned seed, double spacing, bool 
     p.column(Field::pressure)[i] = uniform(-1e8, 1e9);
     p.column(Field::sound_speed)[i] = uniform(1000, 3000);
     p.column(Field::shear_switch)[i] = uniform(0, 1);
-    for (int k = 0; stress && k < deviator_size<Dim>; ++k) p.column(Field::deviatoric_stress, k)[i] = uniform(-5e8, 5e8);
+    for (int k = 0; stress && k < deviator_size<Dim>; ++k)
+      p.column(Field::deviatoric_stress, k)[i] = uniform(-5e8, 5e8);
   }
   p.set_material_ranges({{0, n / 3}, {n / 3, n}});
   return p;
@@ -74,9 +91,8 @@ Sums<Dim> reference_rates(const Particles<Dim>& p, const PairPassSettings& setti
   return with_kernel(settings.kernel, [&](auto kernel) {
     using K = decltype(kernel);
     Sums<Dim> sums;
-    const auto h = p.column(Field::smoothing_length), rho = p.column(Field::density),
-               c = p.column(Field::sound_speed), mass = p.column(Field::mass),
-               balsara = p.column(Field::shear_switch);
+    const auto h = p.column(Field::smoothing_length), rho = p.column(Field::density), c = p.column(Field::sound_speed),
+               mass = p.column(Field::mass), balsara = p.column(Field::shear_switch);
     const auto slope = [](double q) { return q < K::support ? q * K::slope_over_q(q, 1 / q) : 0.0; };
     const Mat<Dim> own = stress_of(p, intact, i) / (rho[i] * rho[i]);
     for (std::size_t j = 0; j < p.size(); ++j) {
@@ -93,8 +109,7 @@ Sums<Dim> reference_rates(const Particles<Dim>& p, const PairPassSettings& setti
           0.5 * (balsara[i] + balsara[j]) * 0.5 * (1 / rho[i] + 1 / rho[j]) *
           (-settings.viscosity_alpha * 0.5 * (c[i] + c[j]) * mu + settings.viscosity_beta * mu * mu);
       const Mat<Dim> one = Mat<Dim>::Identity();
-      const Vec<Dim> force =
-          mass[j] * (own + stress_of(p, intact, j) / (rho[j] * rho[j]) - viscosity * one) * gradW;
+      const Vec<Dim> force = mass[j] * (own + stress_of(p, intact, j) / (rho[j] * rho[j]) - viscosity * one) * gradW;
       const double heat = -mass[j] * v.dot((own - 0.5 * viscosity * one) * gradW);
       sums.acceleration += force;
       sums.heating += heat;

@@ -21,7 +21,8 @@ double lattice_moment(Kernel kernel, int dim, double h) {
     for (int x = -n; x <= n; ++x)
       for (int y = -n; y <= n; ++y)
         for (int z = -depth; z <= depth; ++z)
-          if (const double q = std::sqrt(double(x * x + y * y + z * z)) / h; q > 0) sum -= q * K::slope_over_q(q, 1 / q);
+          if (const double q = std::sqrt(double(x * x + y * y + z * z)) / h; q > 0)
+            sum -= q * K::slope_over_q(q, 1 / q);
     return sum;
   });
 }

@@ -23,7 +23,8 @@ end = "1 ms"
 name = "probe"
 shape = "box"
 size = ["1 mm", "1 mm", "1 mm"]
-material = ")" + material + "\"\n")),
+material = ")" + material +
+                     "\"\n")),
         p(sim->particles) {}
   const Material& material() const { return sim->materials[0]; }
   double& at(Field f, int component = 0) { return p.column(f, component)[0]; }
@@ -41,8 +42,8 @@ TEST(EquationOfStateStage, GivesPressureAndLongitudinalSpeedOfADenseSolid) {
   const EosPoint point = probe.solid(rho, 1e5);
   EXPECT_EQ(probe.at(Field::pressure), point.pressure);
   const double bulk = point.dP_drho + point.pressure / (rho * rho) * point.dP_de;
-  EXPECT_NEAR(probe.at(Field::sound_speed),
-              std::sqrt(bulk + 4.0 / 3 * probe.material().elastic->shear_modulus / rho), 1e-9);
+  EXPECT_NEAR(probe.at(Field::sound_speed), std::sqrt(bulk + 4.0 / 3 * probe.material().elastic->shear_modulus / rho),
+              1e-9);
 }
 
 TEST(EquationOfStateStage, CrushesAPorousSolidForGood) {

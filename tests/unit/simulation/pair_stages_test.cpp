@@ -21,7 +21,8 @@ end = "1 ms"
 name = "cube"
 shape = "box"
 size = ["10 mm", "10 mm", "10 mm"]
-material = ")" + material + R"("
+material = ")" + material +
+                  R"("
 [numerics]
 gradient_correction = true
 balsara = true
@@ -98,9 +99,9 @@ TEST(StrainRates, OfACrushedBodyAreThoseOfItsSolid) {
   EXPECT_NEAR(p.column(Field::stress_factor)[i], 1 + closing, 1e-4);
 
   const Mat<3> strain = 0.5 * (A + A.transpose()), spin = 0.5 * (A - A.transpose()), S = full_tensor<3>(some_stress);
-  const Mat<3> expected = 2 * pumice.elastic->shear_modulus / alpha * (1 + closing) *
-                              (strain - strain.trace() / 3 * Mat<3>::Identity()) +
-                          spin * S - S * spin + closing * A.trace() * S;
+  const Mat<3> expected =
+      2 * pumice.elastic->shear_modulus / alpha * (1 + closing) * (strain - strain.trace() / 3 * Mat<3>::Identity()) +
+      spin * S - S * spin + closing * A.trace() * S;
   EXPECT_LT((rate_of_stress(*sim, i) - expected).norm(), 1e-3 * expected.norm());
 }
 

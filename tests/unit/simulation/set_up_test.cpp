@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 #include "base/errors.hpp"
 #include "unit/base/thread_counts.hpp"
@@ -64,7 +65,7 @@ TEST(SetUp, BodiesHaveTheirMassVelocityAndState) {
     EXPECT_EQ(p.column(Field::distension)[i], 1);
     EXPECT_EQ(p.label(Label::body)[i], 1);
   }
-  const double volume = 4 * M_PI / 3 * std::pow(0.035, 3);
+  const double volume = 4 * std::numbers::pi / 3 * std::pow(0.035, 3);
   EXPECT_NEAR(mass, volume * sim->materials[0].bulk_density(), 1e-12 * mass);
 }
 
@@ -76,7 +77,8 @@ TEST(SetUp, MassesInMixedPrecisionAreNumbersThatSinglePrecisionHolds) {
 }
 
 TEST(SetUp, AUniformGasIsInEquilibrium) {
-  const auto sim = start<2>(gas_tube, {"bodies[1].density=1 kg/m^3", "bodies[1].pressure=1 Pa", "bodies[1].spacing_factor=1"});
+  const auto sim =
+      start<2>(gas_tube, {"bodies[1].density=1 kg/m^3", "bodies[1].pressure=1 Pa", "bodies[1].spacing_factor=1"});
   const auto& p = sim->particles;
   for (std::size_t i = 0; i < p.size(); ++i) {
     EXPECT_NEAR(p.column(Field::density)[i], 1, 0.02);

@@ -81,7 +81,8 @@ TEST(Shapes, ABoxIsFilledEvenly) {
 
 TEST(Shapes, RoundBodiesHaveTheirExactVolumeAtAboutTheSpacing) {
   for (const Lattice lattice : {Lattice::cubic, Lattice::hexagonal}) {
-    const auto ball = fill<3>(sphere(0.5), 0.05, lattice), rod = fill<3>(cylinder(0.4, 1.5, {1, 2, -0.5}), 0.05, lattice);
+    const auto ball = fill<3>(sphere(0.5), 0.05, lattice),
+               rod = fill<3>(cylinder(0.4, 1.5, {1, 2, -0.5}), 0.05, lattice);
     const auto plate = fill<2>(disc(0.5), 0.02, lattice);
     EXPECT_NEAR(filled(ball), pi / 6, 1e-13);
     EXPECT_NEAR(filled(rod), 0.24 * pi, 1e-13);

@@ -19,15 +19,15 @@ std::vector<std::string> names(const std::vector<Stage<Dim>>& stages) {
 /// Bytes per particle of columns, pair lists and pair records.
 template <int Dim>
 double bytes_per_particle(const Simulation<Dim>& sim) {
-  const std::size_t intact = sim.intact.capacity() * sizeof(double), order = sim.order.capacity() * sizeof(std::uint32_t);
+  const std::size_t intact = sim.intact.capacity() * sizeof(double),
+                    order = sim.order.capacity() * sizeof(std::uint32_t);
   return static_cast<double>(sim.particles.bytes() + sim.lists.bytes() + sim.pass->bytes() + intact + order) /
          static_cast<double>(sim.particles.size());
 }
 
 TEST(Stages, AGasHasNothingOfASolid) {
   const auto sim = start<2>(gas_tube);
-  EXPECT_EQ(names(sim->stages),
-            (std::vector<std::string>{"neighbours", "density", "equation of state", "pair rates"}));
+  EXPECT_EQ(names(sim->stages), (std::vector<std::string>{"neighbours", "density", "equation of state", "pair rates"}));
   EXPECT_EQ(sim->particles.fields(),
             (std::vector<Field>{position, velocity, acceleration, mass, density, specific_energy, heating, pressure,
                                 sound_speed, smoothing_length, neighbour_sum, approach_speed}));
@@ -36,9 +36,8 @@ TEST(Stages, AGasHasNothingOfASolid) {
 
 TEST(Stages, PorousRockHasAllItsOwn) {
   const auto sim = start<3>(porous_impact);
-  EXPECT_EQ(names(sim->stages),
-            (std::vector<std::string>{"neighbours", "equation of state", "strength", "damage", "pair rates",
-                                      "strain rates", "smoothing lengths"}));
+  EXPECT_EQ(names(sim->stages), (std::vector<std::string>{"neighbours", "equation of state", "strength", "damage",
+                                                          "pair rates", "strain rates", "smoothing lengths"}));
   for (const Field f : {deviatoric_stress, stress_rate, plastic_strain, distension, stress_factor, Field::damage, crack,
                         crack_rate, flaw_strain, flaw_exponent, flaw_count, velocity_gradient, density_rate})
     EXPECT_TRUE(sim->particles.has(f)) << info(f).name;
@@ -51,17 +50,18 @@ TEST(Stages, EachIsThereOnlyOnRequest) {
   };
   EXPECT_EQ(list_of({"numerics.balsara=true"}),
             (std::vector<std::string>{"neighbours", "density", "equation of state", "pair rates", "shear switch"}));
-  EXPECT_EQ(list_of({"numerics.density=continuity"}),
-            (std::vector<std::string>{"neighbours", "equation of state", "pair rates", "strain rates",
-                                      "smoothing lengths"}));
+  EXPECT_EQ(
+      list_of({"numerics.density=continuity"}),
+      (std::vector<std::string>{"neighbours", "equation of state", "pair rates", "strain rates", "smoothing lengths"}));
   EXPECT_EQ(list_of({"numerics.density=continuity", "numerics.smoothing_growth=1"}),
             (std::vector<std::string>{"neighbours", "equation of state", "pair rates", "strain rates"}));
 }
 
 TEST(Stages, AMaterialWithoutPoresOrDamageHasNoSuchColumns) {
-  const auto sim = start<3>(porous_impact, {"materials.pumice.porosity.model=none", "materials.pumice.damage.model=none"});
-  for (const Field f : {distension, stress_factor, Field::damage, crack, crack_rate, flaw_strain, flaw_exponent,
-                        flaw_count})
+  const auto sim =
+      start<3>(porous_impact, {"materials.pumice.porosity.model=none", "materials.pumice.damage.model=none"});
+  for (const Field f :
+       {distension, stress_factor, Field::damage, crack, crack_rate, flaw_strain, flaw_exponent, flaw_count})
     EXPECT_FALSE(sim->particles.has(f)) << info(f).name;
   EXPECT_TRUE(sim->particles.has(deviatoric_stress));
 }

@@ -31,7 +31,7 @@ foreach(library IN LISTS imported_targets)
   set_property(TARGET ${library} PROPERTY INTERFACE_LINK_LIBRARIES "${known_links}")
 endforeach()
 
-get_filename_component(ejecta_root ${CMAKE_CURRENT_LIST_DIR}/.. ABSOLUTE)
+get_filename_component(ejecta_root ${CMAKE_CURRENT_LIST_DIR}/../.. ABSOLUTE)
 set(insitu ${ejecta_root}/src/insitu)
 add_library(ejecta_insitu STATIC
   ${insitu}/catalyst_bridge.cpp ${insitu}/gl_probe.cpp ${insitu}/image_index.cpp ${insitu}/insitu_log.cpp

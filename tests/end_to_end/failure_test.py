@@ -1,0 +1,36 @@
+"""A run that goes wrong ends with exit code 3, says where and why, and what it has written so far can be read."""
+import unittest
+from ejecta_run import IMPACT_2D, RunTest, Snapshot, Table, ejecta, resolved, summary
+
+COARSE = {"resolution.spacing": "3mm", "time.end": "20us", "insitu.enabled": "false"}
+
+
+class Failure(RunTest):
+    def check_what_is_left(self, out):
+        self.assertEqual(summary(out)["exit"], 3)
+        failed, = (out / "checkpoints").glob("failed_*.h5")
+        self.assertEqual(len(Snapshot(failed).column("density")), summary(out)["particles"])
+        history = Table(out / "history.csv")
+        self.assertEqual(int(history["step"][-1]), summary(out)["steps"])
+        self.assertEqual(resolved(out)["scene"]["name"], "pumice_impact_2d")
+        self.assertIn(self.last.stderr.split(" E ")[1].splitlines()[0], (out / "run.log").read_text())
+
+    def test_energy_drift(self):
+        # Round-off is all the drift there is, so only an absurd limit catches it.
+        out = self.run_scene(IMPACT_2D, "drift", {**COARSE, "numerics.max_energy_drift": 1e-30}, code=3)
+        self.assertRegex(self.last.stderr, r"time .* s, step \d+: total energy has drifted")
+        self.check_what_is_left(out)
+
+    def test_collapsed_time_step(self):
+        # Viscosity this strong leaves no stable time step once the bodies touch.
+        out = self.run_scene(IMPACT_2D, "collapse", {**COARSE, "numerics.viscosity_alpha": 1e9}, code=3)
+        self.assertRegex(self.last.stderr, r"time step has collapsed to .* by the Courant condition of particle \d+ "
+                                           r"\(body \"\w+\", material \"\w+\"\) at \(.*\) m")
+
+    def test_state_that_overflows(self):
+        out = self.run_scene(IMPACT_2D, "overflow", {**COARSE, "bodies.projectile.velocity": "0 -1e200 m/s"}, code=3)
+        self.assertRegex(self.last.stderr, r"particle \d+ \(body \"\w+\"")
+
+
+if __name__ == "__main__":
+    unittest.main()
