@@ -55,6 +55,21 @@ std::string describe_particle(const Simulation<Dim>& sim, std::size_t i) {
       p.column(Field::smoothing_length)[i]);
 }
 
+namespace {
+
+/// The first stage that wrote something not finite to the particle, else where the failure was noticed.
+template <int Dim>
+std::string origin_of_failure(const Simulation<Dim>& sim, std::size_t i, std::string_view noticed) {
+  for (const Stage<Dim>& stage : sim.stages)
+    for (Field f : stage.writes)
+      for (int k = 0; k < components(info(f).shape, Dim); ++k)
+        if (!std::isfinite(sim.particles.column(f, k)[i]))
+          return fmt::format("stage \"{}\" (field {})", stage.name, info(f).name);
+  return fmt::format("after {}", noticed);
+}
+
+}  // namespace
+
 template <int Dim>
 void check_health(const Simulation<Dim>& sim, std::string_view stage) {
   const Particles<Dim>& p = sim.particles;
@@ -66,8 +81,9 @@ void check_health(const Simulation<Dim>& sim, std::string_view stage) {
   };
   const IndexedMin worst = parallel_min(p.size(), 0.5, [&](std::size_t i) { return healthy(i) ? 1.0 : 0.0; });
   if (worst.index == p.size()) return;
-  throw SimulationError(fmt::format("time {:.6g} s, step {}, after {}: state not finite or density not positive: {}",
-                                    sim.clock.time, sim.clock.step, stage, describe_particle(sim, worst.index)));
+  throw SimulationError(fmt::format("time {:.6g} s, step {}, {}: state not finite or density not positive: {}",
+                                    sim.clock.time, sim.clock.step, origin_of_failure(sim, worst.index, stage),
+                                    describe_particle(sim, worst.index)));
 }
 
 template TimeStepVote vote_time_step<2>(const Simulation<2>&);

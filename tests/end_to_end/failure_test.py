@@ -27,9 +27,17 @@ class Failure(RunTest):
         self.assertRegex(self.last.stderr, r"time step has collapsed to .* by the Courant condition of particle \d+ "
                                            r"\(body \"\w+\", material \"\w+\"\) at \(.*\) m")
 
-    def test_state_that_overflows(self):
+        self.check_what_is_left(out)
+
+    def test_energy_that_is_no_number(self):
+        # The square of this velocity overflows.
         out = self.run_scene(IMPACT_2D, "overflow", {**COARSE, "bodies.projectile.velocity": "0 -1e200 m/s"}, code=3)
-        self.assertRegex(self.last.stderr, r"particle \d+ \(body \"\w+\"")
+        self.assertRegex(self.last.stderr, r"total energy has drifted by -?nan")
+        self.check_what_is_left(out)
+
+    def test_state_that_is_no_number(self):
+        self.run_scene(IMPACT_2D, "overflow", {**COARSE, "bodies.projectile.specific_energy": "1e306 J/kg"}, code=3)
+        self.assertRegex(self.last.stderr, r"step 0, after set-up: state not finite .*: particle \d+ \(body \"\w+\"")
 
 
 if __name__ == "__main__":

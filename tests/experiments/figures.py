@@ -7,13 +7,16 @@ REFERENCES = {
     "pumice_impact": {"laboratory": 0.0996, "GASPHiA note": 0.0835},
     "basalt_impact": {"laboratory": 0.31, "MPM study": 0.246},
 }
-TITLES = {"pumice_impact": "Nylon ball into porous pumice, 2.58 km/s", "basalt_impact": "Nylon ball into basalt, 3.2 km/s"}
+TITLES = {
+    "pumice_impact": "Nylon ball into porous pumice, 2.58 km/s",
+    "basalt_impact": "Nylon ball into basalt, 3.2 km/s",
+}
 VIEWS = ["slice", "cutaway", "fragments"]
 
 
 def gnuplot(file, title, commands):
     """Draws FILE.png from FILE.gp, which stays beside it."""
-    head = [f'set terminal pngcairo size 900,600 font "DejaVu Sans,11"', f'set output "{file.with_suffix(".png")}"',
+    head = ['set terminal pngcairo size 900,600 font "DejaVu Sans,11"', f'set output "{file.with_suffix(".png")}"',
             f'set title "{title}" noenhanced', "set grid", 'set datafile separator ","']
     script = file.with_suffix(".gp")
     script.write_text("\n".join(head + commands) + "\n")
@@ -25,49 +28,61 @@ def label(case):
 
 
 def reference_lines(scene, vertical):
+    """What the largest fragment weighs elsewhere, as dashed lines with their names."""
     commands = []
     for k, (who, share) in enumerate(REFERENCES[scene].items()):
-        ends = f"first {share}, graph 0 to first {share}, graph 1" if vertical else \
-               f"graph 0, first {share} to graph 1, first {share}"
-        commands += [f"set arrow from {ends} nohead dashtype {k + 2} linecolor rgb 'gray30'"]
+        if vertical:
+            line = f"first {share}, graph 0 to first {share}, graph 1"
+            place = f"first {share}, graph {0.97 - 0.06 * k} right offset -0.5,0"
+        else:
+            line = f"graph 0, first {share} to graph 1, first {share}"
+            place = f"graph {0.01 + 0.2 * k}, first {share} offset 0,0.5"
+        commands += [f"set arrow from {line} nohead dashtype {k + 2} linecolor rgb 'gray30'",
+                     f"set label '{who} {100 * share:g} %' at {place}"]
     return commands
+
+
+def curves(cases, out, table, rest):
+    """Plot clauses, one a run, each of a table in its folder."""
+    return [f"'{out / case.name / table}' skip 1 {rest} linewidth 2 title '{label(case)}'" for case in cases]
 
 
 def draw_distributions(scene, cases, out, folder):
     """N(>= m) of every run with the first seed."""
-    curves = [f"'{out / c.name / 'fragment_distribution.csv'}' skip 1 using 2:3 with steps linewidth 2 title '{label(c)}'"
-              for c in cases]
-    extra = []
-    if scene == "basalt_impact":
-        extra = ["0.6*x**-0.6 with lines dashtype 4 linecolor rgb 'gray50' title 'slope -3/5, fine fragments of the laboratory'"]
-    who = ", ".join(f"{name} {100 * share:g} %" for name, share in REFERENCES[scene].items())
+    plots = curves(cases, out, "fragment_distribution.csv", "using 2:3 with steps")
+    if scene == "basalt_impact":  # only the slope is known of the laboratory's fine fragments
+        plots.append("0.6*x**-0.6 with lines dashtype 4 linecolor rgb 'gray50' title 'laboratory: slope -3/5'")
     gnuplot(folder / f"{scene}_distribution", TITLES[scene],
             ["set logscale xy", "set format '%g'", "set key bottom left", "set xrange [1e-5:1]", "set yrange [0.8:*]",
-             f"set xlabel 'fragment mass / target mass   (dashed: largest, {who})'",
-             "set ylabel 'fragments at least as heavy'", *reference_lines(scene, True), "plot " + ", ".join(curves + extra)])
+             "set xlabel 'fragment mass / target mass'",
+             "set ylabel 'fragments at least as heavy'", *reference_lines(scene, True),
+             "plot " + ", ".join(plots)])
 
 
 def draw_histories(scene, cases, out, folder):
     """Mass of the largest fragment against time."""
-    curves = [f"'{out / c.name / 'largest_fragment.csv'}' skip 1 using ($1*1e6):2 with lines linewidth 2 title '{label(c)}'"
-              for c in cases]
+    plots = curves(cases, out, "largest_fragment.csv", "using ($1*1e6):2 with lines")
     gnuplot(folder / f"{scene}_history", TITLES[scene],
-            ["set xlabel 'time [us]'", "set ylabel 'largest fragment / target mass'", "set yrange [0:1]", "set key top right",
-             *reference_lines(scene, False), "plot " + ", ".join(curves)])
+            ["set xlabel 'time [us]'", "set ylabel 'largest fragment / target mass'", "set yrange [0:1]",
+             "set key top right", *reference_lines(scene, False), "plot " + ", ".join(plots)])
 
 
 def draw_resolution(scene, rows, folder):
     """Mass of the largest fragment against spacing, one point a seed."""
     points = []
+    coarsest = max(row["spacing [mm]"] for row in rows)
+    highest = max(*REFERENCES[scene].values(), *(row["largest [%]"] / 100 for row in rows))
     for k, configuration in enumerate(dict.fromkeys(row["configuration"] for row in rows)):
         data = folder / f"{scene}_{configuration}_resolution.csv"
         with open(data, "w", newline="") as text:
             csv.writer(text).writerows((row["spacing [mm]"], row["largest [%]"] / 100) for row in rows
                                        if row["configuration"] == configuration)
-        points.append(f"'{data}' using ($1*{1 + 0.01 * k}):2 with points pointtype {7 + 2 * k} pointsize 1.4 title '{configuration}'")
+        points.append(f"'{data}' using ($1*{1 + 0.01 * k}):2 with points pointtype {7 + 2 * k} pointsize 1.4 "
+                      f"title '{configuration}'")
     gnuplot(folder / f"{scene}_resolution", TITLES[scene],
-            ["set xlabel 'particle spacing [mm]'", "set ylabel 'largest fragment / target mass'", "set xrange [0:*]",
-             "set yrange [0:*]", *reference_lines(scene, False), "plot " + ", ".join(points)])
+            ["set xlabel 'particle spacing [mm]'", "set ylabel 'largest fragment / target mass'",
+             f"set xrange [0:{1.2 * coarsest}]", f"set yrange [0:{1.2 * highest}]",
+             *reference_lines(scene, False), "plot " + ", ".join(points)])
 
 
 def last_image(run, view):
@@ -77,7 +92,7 @@ def last_image(run, view):
 
 
 def draw_pictures(scene, cases, out, folder):
-    """The last pictures of the finest runs that drew any, a row a configuration, with few enough colours to be small."""
+    """The last pictures of the finest runs that drew any, a row a configuration; few colours keep the file small."""
     finest = {}
     for case in cases:
         if "insitu.enabled" not in case.settings:
@@ -101,10 +116,11 @@ def draw_pictures(scene, cases, out, folder):
 
 
 def draw(done, rows, out, folder):
-    for scene in dict.fromkeys(case.scene for case in done):
-        first = [case for case in done if case.scene == scene and case.seed == 1]
+    """All figures of the finished cases; `rows` are their outcomes in the same order."""
+    for scene in dict.fromkeys(case.scene for case in done if case.main):
+        first = [case for case in done if case.scene == scene and case.seed == 1 and case.main]
         if first:
             draw_distributions(scene, first, out, folder)
             draw_histories(scene, first, out, folder)
             draw_pictures(scene, first, out, folder)
-        draw_resolution(scene, [row for row in rows if row["scene"] == scene], folder)
+        draw_resolution(scene, [row for case, row in zip(done, rows) if case.scene == scene and case.main], folder)

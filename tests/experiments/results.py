@@ -91,8 +91,9 @@ def by_threshold(case, folder, binary, scratch):
         if not finished(copy):
             shutil.rmtree(copy, ignore_errors=True)
             shutil.copytree(folder, copy, ignore=shutil.ignore_patterns("images", "*.mp4", "summary.json", "monitor"))
-            command = [str(binary), "run", str(folder / "resolved.toml"), "--out", str(copy), "--restart", "--threads", "1",
-                       "--set", f"fragments.damage_threshold={threshold}", "--set", "insitu.enabled=false"]
+            command = [str(binary), "run", str(folder / "resolved.toml"), "--out", str(copy), "--restart",
+                       "--threads", "1", "--set", f"fragments.damage_threshold={threshold}",
+                       "--set", "insitu.enabled=false"]
             with open(scratch / (copy.name + ".log"), "w") as log:
                 subprocess.run(command, stdout=log, stderr=subprocess.STDOUT)
         if finished(copy):
@@ -146,9 +147,10 @@ def write(done, out, binary):
     scratch = out / "thresholds"
     scratch.mkdir(exist_ok=True)
     counted = []
-    for case in (c for c in done if c.seed == 1):
+    for case in (c for c in done if c.seed == 1 and c.main):
         for threshold, (largest, dust) in by_threshold(case, out / case.name, binary, scratch).items():
             counted.append({"scene": case.scene, "configuration": case.configuration, "spacing [mm]": case.spacing,
-                            "damage threshold": threshold, "largest [%]": round(largest, 2), "dust [%]": round(dust, 1)})
+                            "damage threshold": threshold, "largest [%]": round(largest, 2),
+                            "dust [%]": round(dust, 1)})
     write_table(counted, folder / "thresholds", "What the damage threshold does to the same final state")
     figures.draw(done, rows, out, folder)

@@ -69,13 +69,15 @@ TEST(Health, NamesStageAndParticleOfABadState) {
     }
     return "no error";
   };
-  for (const std::string& message :
-       {message_of(Field::density, 0, -1), message_of(Field::density, 0, 0),
-        message_of(Field::velocity, 2, std::nan("")), message_of(Field::acceleration, 1, INFINITY),
-        message_of(Field::specific_energy, 0, -INFINITY)}) {
-    EXPECT_NE(message.find("after test"), std::string::npos) << message;
+  const auto expect = [](const std::string& message, const std::string& origin) {
+    EXPECT_NE(message.find(origin), std::string::npos) << message;
     EXPECT_NE(message.find("particle 17 (body \"target\", material \"pumice\")"), std::string::npos) << message;
-  }
+  };
+  expect(message_of(Field::density, 0, -1), "after test");
+  expect(message_of(Field::density, 0, 0), "after test");
+  expect(message_of(Field::velocity, 2, std::nan("")), "after test");
+  expect(message_of(Field::specific_energy, 0, -INFINITY), "after test");
+  expect(message_of(Field::acceleration, 1, INFINITY), "stage \"pair rates\" (field acceleration)");
 }
 
 }  // namespace

@@ -1,0 +1,70 @@
+"""A signal ends a run in good order, and --restart goes on as if nothing had happened."""
+import os
+import signal
+import subprocess
+import time
+import unittest
+from ejecta_run import IMPACT_2D, PROGRAM, RunTest, Table, ejecta, movie_frames, settings, summary
+
+# Long enough to be caught in the middle and to sort the particles several times.
+VALUES = {"resolution.spacing": "2mm", "time.end": "100us", "insitu.frames": 6, "insitu.max_share": 1,
+          "insitu.image_width": 480, "insitu.image_height": 360}
+
+
+class Restart(RunTest):
+    def interrupted(self, name, number, values, after):
+        """Starts a run and sends it the signal once it has passed the simulated time `after` [s]."""
+        out = self.folder / name
+        run = subprocess.Popen([PROGRAM, "run", IMPACT_2D, "--out", out, "--threads", "1", *settings(values)],
+                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        give_up = time.monotonic() + 120
+        while run.poll() is None and time.monotonic() < give_up:
+            try:
+                if float(Table(out / "history.csv").rows[-1][0]) > after:
+                    break
+            except (OSError, IndexError, ValueError):
+                pass
+            time.sleep(0.02)
+        os.kill(run.pid, number)
+        _, log = run.communicate(timeout=60)
+        self.assertEqual(run.returncode, 0, log)
+        self.assertIn("stopped by a signal", log)
+        return out
+
+    def test_signals(self):
+        whole = self.run_scene(IMPACT_2D, "whole", VALUES, "--threads", 1)
+        for number in (signal.SIGINT, signal.SIGTERM):
+            with self.subTest(number.name):
+                out = self.interrupted(number.name, number, VALUES, after=30e-6)
+                stopped = summary(out)
+                self.assertEqual(stopped["exit"], 0)
+                self.assertTrue(30e-6 < stopped["time_s"] < 100e-6)
+                checkpoint, = (out / "checkpoints").glob("checkpoint_*.h5")
+                self.assertIn(str(stopped["steps"]), checkpoint.name)
+                frames = sorted((out / "images").glob("slice_*.png"))
+                self.assertEqual(int(frames[-1].stem.split("_")[1]), stopped["steps"])
+                self.assertEqual(movie_frames(out / "movie_slice.mp4"), len(frames))
+
+                result = ejecta("run", IMPACT_2D, "--out", out, "--threads", 2, "--restart", *settings(VALUES))
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assert_same_end(out, whole)
+                after = sorted((out / "images").glob("slice_*.png"))
+                self.assertGreater(len(after), len(frames))
+                self.assertEqual(movie_frames(out / "movie_slice.mp4"), len(after))
+                self.assertEqual(sorted(Table(out / "images/data.csv")["FILE"]),
+                                 sorted(file.name for file in (out / "images").glob("*.png")))
+
+    def assert_same_end(self, out, whole):
+        """Bit for bit, in the last row and in all rows but what the pieces were at the last frame."""
+        ours, theirs = Table(out / "history.csv"), Table(whole / "history.csv")
+        self.assertEqual(ours.rows[-1], theirs.rows[-1])
+        state = theirs.names.index("largest fragment mass fraction")
+        by_step = {row[1]: row[:state] for row in ours.rows}
+        for row in theirs.rows:
+            self.assertEqual(by_step[row[1]], row[:state])
+        self.assertLessEqual(len(ours.rows), len(theirs.rows) + 1)
+        self.assertEqual(summary(out)["largest_fragment_mass_fraction"], summary(whole)["largest_fragment_mass_fraction"])
+
+
+if __name__ == "__main__":
+    unittest.main()
