@@ -26,8 +26,7 @@ CheckpointView checkpoint_view(const Simulation<Dim>& sim, const std::string& re
   view.step = sim.clock.step;
   view.scene = resolved;
   const Totals& t = sim.initial;
-  view.scalars = {{"wall_seconds", sim.wall_seconds},   {"candidates_when_sorted", sim.candidates_when_sorted},
-                  {"initial_mass", t.mass},
+  view.scalars = {{"wall_seconds", sim.wall_seconds},   {"initial_mass", t.mass},
                   {"initial_kinetic", t.kinetic},       {"initial_internal", t.internal},
                   {"initial_scale", t.momentum_scale},  {"initial_momentum_x", t.momentum[0]},
                   {"initial_momentum_y", t.momentum[1]}, {"initial_momentum_z", t.momentum[2]}};
@@ -61,7 +60,6 @@ void restore(Simulation<Dim>& sim, const Checkpoint& c) {
   for (const auto& [label, name] : labels) std::ranges::copy(c.label(name), p.label(label).begin());
   sim.clock = {c.time, c.dt, c.step};
   sim.wall_seconds = c.scalar("wall_seconds");
-  sim.candidates_when_sorted = c.scalar("candidates_when_sorted");
   Totals& t = sim.initial;
   t.mass = c.scalar("initial_mass");
   t.kinetic = c.scalar("initial_kinetic");
@@ -95,9 +93,6 @@ void Checkpoints<Dim>::observe(Simulation<Dim>& sim, bool last) {
       write_rotating_checkpoint(folder_ / "checkpoints", checkpoint_view(sim, resolved_));
     });
     written_ = clock::now();
-    // Pair lists are not part of a checkpoint. Renewing them here too keeps this run and one restarted from the
-    // checkpoint the same bit for bit.
-    sim.lists.invalidate();
   }
   if (sim.clock.time >= next_snapshot_ * (1 - 1e-12)) {
     sim.timers.time("snapshots", [&] {

@@ -65,7 +65,6 @@ struct Simulation {
   std::vector<double> intact;                 ///< share of the deviator that damage leaves; empty without damage
   std::vector<std::uint32_t> order;           ///< scratch of the spatial sort
   double lists_built_at = 0;                  ///< s
-  double candidates_when_sorted = 0;
   std::int64_t list_builds = 0, sorts = 0;
   std::int64_t unconverged = 0;               ///< particle-steps in which the distension solver failed (plain Newton may)
   Clock clock;
