@@ -37,7 +37,7 @@ class Failure(RunTest):
 
     def test_state_that_is_no_number(self):
         self.run_scene(IMPACT_2D, "overflow", {**COARSE, "bodies.projectile.specific_energy": "1e306 J/kg"}, code=3)
-        self.assertRegex(self.last.stderr, r"step 0, after set-up: state not finite .*: particle \d+ \(body \"\w+\"")
+        self.assertRegex(self.last.stderr, r"step 0, stage \"pair rates\" \(field acceleration\): state not finite .*: particle \d+ \(body \"\w+\"")
 
 
 if __name__ == "__main__":
