@@ -14,7 +14,8 @@ namespace {
 std::string column_name(const FieldInfo& f, int dim, int component) {
   return components(f.shape, dim) == 1 ? std::string(f.name) : fmt::format("{}_{}", f.name, component);
 }
-const std::pair<Label, const char*> labels[] = {{Label::id, "id"}, {Label::body, "body"}, {Label::material, "material"}};
+const std::pair<Label, const char*> labels[] = {
+    {Label::id, "id"}, {Label::body, "body"}, {Label::material, "material"}};
 
 }  // namespace
 
@@ -26,9 +27,9 @@ CheckpointView checkpoint_view(const Simulation<Dim>& sim, const std::string& re
   view.step = sim.clock.step;
   view.scene = resolved;
   const Totals& t = sim.initial;
-  view.scalars = {{"wall_seconds", sim.wall_seconds},   {"initial_mass", t.mass},
-                  {"initial_kinetic", t.kinetic},       {"initial_internal", t.internal},
-                  {"initial_scale", t.momentum_scale},  {"initial_momentum_x", t.momentum[0]},
+  view.scalars = {{"wall_seconds", sim.wall_seconds},    {"initial_mass", t.mass},
+                  {"initial_kinetic", t.kinetic},        {"initial_internal", t.internal},
+                  {"initial_scale", t.momentum_scale},   {"initial_momentum_x", t.momentum[0]},
                   {"initial_momentum_y", t.momentum[1]}, {"initial_momentum_z", t.momentum[2]}};
   const Particles<Dim>& p = sim.particles;
   for (Field field : p.fields()) {
@@ -89,9 +90,8 @@ void Checkpoints<Dim>::observe(Simulation<Dim>& sim, bool last) {
   const double interval = sim.scene.output.checkpoint_interval;
   const bool due = interval > 0 && std::chrono::duration<double>(clock::now() - written_).count() > interval;
   if (due || last) {
-    sim.timers.time("checkpoints", [&] {
-      write_rotating_checkpoint(folder_ / "checkpoints", checkpoint_view(sim, resolved_));
-    });
+    sim.timers.time("checkpoints",
+                    [&] { write_rotating_checkpoint(folder_ / "checkpoints", checkpoint_view(sim, resolved_)); });
     written_ = clock::now();
   }
   if (sim.clock.time >= next_snapshot_ * (1 - 1e-12)) {

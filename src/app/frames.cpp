@@ -177,13 +177,21 @@ void Frames<Dim>::observe(Simulation<Dim>& sim, bool last) {
 /// times of the frames passed over, so that the result of a run does not depend on the speed of the machine.
 template <int Dim>
 void Frames<Dim>::govern(const Simulation<Dim>& sim) {
-  const double spent = insitu_seconds(sim.timers), share = spent / (spent + sim.wall_seconds);
-  constexpr int frames_before_judging = 5;  // the first frame pays for starting the renderer
-  if (++frame_ < frames_before_judging || share <= sim.scene.insitu.max_share) return;
+  const double spent = insitu_seconds(sim.timers);
+  if (frame_++ == 0) {  // the first frame pays for starting the renderer: judge what comes after it
+    insitu_before_ = spent;
+    steps_before_ = sim.wall_seconds;
+    return;
+  }
+  constexpr int frames_before_judging = 5;
+  const double share = (spent - insitu_before_) / (spent - insitu_before_ + sim.wall_seconds - steps_before_);
+  if (frame_ <= frames_before_judging || share <= sim.scene.insitu.max_share) return;
   stride_ *= 2;
   frame_ = 0;
-  warn(fmt::format("in-situ work takes {:.0f} % of the wall time (insitu.max_share = {:.0f} %): time between frames "
-                   "doubled", 100 * share, 100 * sim.scene.insitu.max_share));
+  warn(
+      fmt::format("in-situ work takes {:.0f} % of the wall time (insitu.max_share = {:.0f} %): time between frames "
+                  "doubled",
+                  100 * share, 100 * sim.scene.insitu.max_share));
 }
 
 template <int Dim>
@@ -248,7 +256,8 @@ std::vector<Channel> Frames<Dim>::channels(const Simulation<Dim>& sim) {
   if (Dim == 2) particles.position[2] = zeros_;
   for (Field f : p.fields())
     if (f != Field::position && info(f).role != Role::rate) particles.fields.push_back(view_of(p, f));
-  particles.indices = {{"id", p.label(Label::id)}, {"body", p.label(Label::body)}, {"material", p.label(Label::material)}};
+  particles.indices = {
+      {"id", p.label(Label::id)}, {"body", p.label(Label::body)}, {"material", p.label(Label::material)}};
   if (fragments_) particles.indices.push_back({"fragment_number", fragments_->number});
 
   Channel slice = image_channel(slice_, "slice");

@@ -78,7 +78,8 @@ class Frames final : public Observer<Dim> {
   std::vector<std::string> warnings_;
   std::optional<ImageIndex> index_;  ///< of the images drawn without Catalyst
   std::int64_t last_drawn_ = -1;
-  double next_ = 0;                  ///< time of the next frame, drawn or passed over [s]
+  double next_ = 0;  ///< time of the next frame, drawn or passed over [s]
+  double insitu_before_ = 0, steps_before_ = 0;  ///< wall time of either when the governor began to judge [s]
   int frame_ = 0, drawn_ = 0, images_ = 0;
   int stride_ = 1, passed_over_ = 0;  ///< the governor draws every stride-th frame only
 };

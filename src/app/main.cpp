@@ -17,8 +17,8 @@ void print_problems(const ejecta::InputError& error) {
   for (const std::string& problem : error.problems()) fmt::print(stderr, "ejecta: {}\n", problem);
 }
 
-/// The OpenMP runtime reads its settings before main() begins, and by default lets waiting threads spin for so long that
-/// a run slows down several times when it shares its cores with others. Start again with a short spin instead.
+/// The OpenMP runtime reads its settings before main() begins, and by default lets waiting threads spin for so long
+/// that a run slows down several times when it shares its cores with others. Start again with a short spin instead.
 void limit_spinning(char** argv) {
   if (std::getenv("GOMP_SPINCOUNT") || std::getenv("OMP_WAIT_POLICY")) return;
   setenv("GOMP_SPINCOUNT", "20000", 1);
@@ -35,13 +35,15 @@ int main(int argc, char** argv) {
 
   CLI::App app{"Ejecta: impact, porous crushing and fragmentation by smoothed particles, seen while it runs."};
   app.require_subcommand(1);
-  app.footer("Exit codes: 0 done, 2 something in the input is wrong (nothing was written), 3 the simulation failed\n"
-             "(results so far are kept).");
+  app.footer(
+      "Exit codes: 0 done, 2 something in the input is wrong (nothing was written), 3 the simulation failed\n"
+      "(results so far are kept).");
   RunOptions options;
   int threads = 0, frames_per_second = 0;
   std::string folder, section;
   auto overrides = [&](CLI::App* command) {
-    command->add_option("--set", options.overrides, "replace a value of the scene, e.g. --set time.end=20us (repeatable)")
+    command
+        ->add_option("--set", options.overrides, "replace a value of the scene, e.g. --set time.end=20us (repeatable)")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
     command->add_option("--threads", threads, "threads (same as --set run.threads=N)")->check(CLI::Range(1, 4096));
@@ -55,7 +57,8 @@ int main(int argc, char** argv) {
   CLI::App* check = app.add_subcommand("check", "validate a scene; print stages, columns, memory and time");
   check->add_option("scene", options.scene_file, "scene file (TOML)")->required();
   overrides(check);
-  CLI::App* describe = app.add_subcommand("describe", "every key of a scene or material: unit, range, default, meaning");
+  CLI::App* describe =
+      app.add_subcommand("describe", "every key of a scene or material: unit, range, default, meaning");
   describe->add_option("section", section, "one section, e.g. numerics or materials");
   CLI::App* movie = app.add_subcommand("movie", "make the movies of a run folder again");
   movie->add_option("folder", folder, "run folder")->required();

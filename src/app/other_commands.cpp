@@ -66,8 +66,8 @@ int movie_command(const std::string& folder, int frames_per_second) {
 }
 
 int info_command() {
-  fmt::print("ejecta {} (commit {})\ncompiler g++ {}\nvector registers {} bits\ncores {}\nmaterials {}\n", EJECTA_VERSION,
-             EJECTA_COMMIT, __VERSION__,
+  fmt::print("ejecta {} (commit {})\ncompiler g++ {}\nvector registers {} bits\ncores {}\nmaterials {}\n",
+             EJECTA_VERSION, EJECTA_COMMIT, __VERSION__,
 #if defined(__AVX512F__)
              512,
 #elif defined(__AVX2__)

@@ -18,7 +18,7 @@ namespace ejecta {
 
 namespace {
 
-constexpr double bytes_of_lists = 330;   ///< pair lists and records of a particle, measured at about 70 neighbours
+constexpr double bytes_of_lists = 330;  ///< pair lists and records of a particle, measured at about 70 neighbours
 constexpr double particle_steps_per_s = 0.9e6;  ///< of one core, measured; `ejecta check` says it is an estimate
 
 template <int Dim>
@@ -71,12 +71,13 @@ Estimate estimate(const Scene& scene, const std::vector<Material>& materials) {
   for (const Body& body : scene.bodies) {
     const double spacing = scene.spacing * body.spacing_factor;
     e.particles += volume(body, scene.dimension) / std::pow(spacing, scene.dimension);
-    const auto material = std::find_if(materials.begin(), materials.end(), [&](const Material& m) { return m.name == body.material; });
+    const auto material =
+        std::find_if(materials.begin(), materials.end(), [&](const Material& m) { return m.name == body.material; });
     const double sound = resting_sound_speed(*material, body);
     least_step = std::min(least_step, n.courant * n.nodes_per_h * spacing / (sound * (1 + 0.6 * n.viscosity_alpha)));
   }
   e.bytes_per_particle = bytes_of_lists + (scene.dimension == 2 ? bytes_of_columns<2>(scene, materials)
-                                                               : bytes_of_columns<3>(scene, materials));
+                                                                : bytes_of_columns<3>(scene, materials));
   e.steps = scene.time_end / least_step;
   if (scene.max_steps > 0) e.steps = std::min(e.steps, static_cast<double>(scene.max_steps));
   const int threads = scene.threads > 0 ? scene.threads : available_cores();
@@ -88,9 +89,10 @@ void check_memory(const Scene& scene, const std::vector<Material>& materials) {
   const Estimate e = estimate(scene, materials);
   const double needed = e.particles * e.bytes_per_particle, free = free_memory();
   if (needed < free && e.particles < 2e9) return;
-  throw InputError(fmt::format("{}: resolution.spacing: expected a scene that fits in the {:.1f} GB of free memory, got "
-                               "{:.3g} particles that need {:.3g} GB",
-                               scene.file, free / 1e9, e.particles, needed / 1e9));
+  throw InputError(
+      fmt::format("{}: resolution.spacing: expected a scene that fits in the {:.1f} GB of free memory, got "
+                  "{:.3g} particles that need {:.3g} GB",
+                  scene.file, free / 1e9, e.particles, needed / 1e9));
 }
 
 template <int Dim>
@@ -104,9 +106,11 @@ double mean_neighbours(const Simulation<Dim>& sim) {
   const double radius = kernel_support(sim.scene.numerics.kernel);
   const auto sum = sim.particles.column(Field::neighbour_sum);
   const double unit_ball = Dim == 2 ? std::numbers::pi : 4 * std::numbers::pi / 3;
-  return parallel_sum<double>(sum.size(), [&](std::size_t i) {
-           return unit_ball * std::pow(radius * sim.support->effective_nodes_per_h(sum[i]), Dim);
-         }) / static_cast<double>(sum.size());
+  return parallel_sum<double>(sum.size(),
+                              [&](std::size_t i) {
+                                return unit_ball * std::pow(radius * sim.support->effective_nodes_per_h(sum[i]), Dim);
+                              }) /
+         static_cast<double>(sum.size());
 }
 
 std::string timer_table(const StageTimers& timers) {

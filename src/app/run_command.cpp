@@ -45,8 +45,9 @@ void check_folder(const RunOptions& options, const fs::path& folder) {
   if (there && !fs::is_directory(folder))
     throw InputError(folder.string() + ": expected a folder for the run, got a file");
   if (there && !options.restart && !options.overwrite)
-    throw InputError(folder.string() + ": expected a new folder, got one with files in it; use --out DIR for another, "
-                                       "--restart to go on from its last checkpoint, or --overwrite to replace it");
+    throw InputError(folder.string() +
+                     ": expected a new folder, got one with files in it; use --out DIR for another, "
+                     "--restart to go on from its last checkpoint, or --overwrite to replace it");
   if (options.restart && !latest_checkpoint(folder / "checkpoints"))
     throw InputError(folder.string() + ": expected a checkpoint to restart from, found none");
   // The nearest existing parent must let us in.
@@ -59,7 +60,8 @@ void prepare_folder(const Job& job) {
   std::error_code failure;
   if (job.overwrite && !job.restart) fs::remove_all(job.folder, failure);
   if (!failure) fs::create_directories(job.folder, failure);
-  if (failure) throw InputError(fmt::format("{}: expected a folder to write to, got: {}", job.folder.string(), failure.message()));
+  if (failure)
+    throw InputError(fmt::format("{}: expected a folder to write to, got: {}", job.folder.string(), failure.message()));
   log_to_folder(job.folder, job.restart);
   write_atomically(job.folder / "resolved.toml", job.resolved);
 }
@@ -111,12 +113,12 @@ void conclude(Simulation<Dim>& sim, const Frames<Dim>& frames, const Job& job, i
     write_fragments(job.folder / "fragments.csv", *frames.fragments(), context);
     write_fragment_distribution(job.folder / "fragment_distribution.csv", *frames.fragments(), context);
     for (const FragmentSensitivity& s : fragment_sensitivity(fragment_input(sim.particles), sim.scene.fragments))
-      spdlog::info("fragments at linking length {:.2f}: {}, largest {:.2f} %, dust {:.1f} % of all mass", s.linking_length,
-                   s.fragments, 100 * s.largest_mass_fraction, 100 * s.dust_mass_fraction);
+      spdlog::info("fragments at linking length {:.2f}: {}, largest {:.2f} %, dust {:.1f} % of all mass",
+                   s.linking_length, s.fragments, 100 * s.largest_mass_fraction, 100 * s.dust_mass_fraction);
   }
   if (sim.unconverged > 0)
-    spdlog::warn("the distension solver {} failed to converge in {} particle-steps", name_of(sim.scene.numerics.distension_solver),
-                 sim.unconverged);
+    spdlog::warn("the distension solver {} failed to converge in {} particle-steps",
+                 name_of(sim.scene.numerics.distension_solver), sim.unconverged);
   FigureSettings figures;
   figures.title = sim.scene.title;
   figures.resolution_limit = sim.scene.fragments.min_particles * sim.particles.column(Field::mass)[0];
@@ -154,8 +156,9 @@ int run_in(const Job& job) {
   Watch<Dim> watch(*sim, job.folder, frames);
   Progress<Dim> progress;
   install_stop_signals();
-  spdlog::info("{}: {} particles in {}D, {} threads, {:.0f} bytes a particle", job.scene.name, sim->particles.size(), Dim,
-               max_threads(), static_cast<double>(memory_bytes(*sim)) / static_cast<double>(sim->particles.size()));
+  spdlog::info("{}: {} particles in {}D, {} threads, {:.0f} bytes a particle", job.scene.name, sim->particles.size(),
+               Dim, max_threads(),
+               static_cast<double>(memory_bytes(*sim)) / static_cast<double>(sim->particles.size()));
   const std::vector<Observer<Dim>*> observers{&frames, &tables, &checkpoints, &watch, &progress};
   try {
     const bool finished = run(*sim, observers, stop_requested);

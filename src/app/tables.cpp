@@ -16,7 +16,8 @@ constexpr std::chrono::seconds between_lines{5};
 
 std::string hours(double seconds) {
   const auto s = static_cast<long>(seconds + 0.5);
-  return s >= 3600 ? fmt::format("{}:{:02d}:{:02d}", s / 3600, s / 60 % 60, s % 60) : fmt::format("{}:{:02d}", s / 60, s % 60);
+  return s >= 3600 ? fmt::format("{}:{:02d}:{:02d}", s / 3600, s / 60 % 60, s % 60)
+                   : fmt::format("{}:{:02d}", s / 60, s % 60);
 }
 }  // namespace
 
@@ -57,13 +58,16 @@ HistoryRow history_row(const Simulation<Dim>& sim, const std::optional<FragmentT
   row.max_density = least(Field::density, -1);
   if (p.has(Field::distension)) row.min_distension = least(Field::distension, 1);
   if (p.has(Field::damage))
-    row.damaged_mass_fraction = parallel_sum<double>(p.size(), [&](std::size_t i) {
-                                  return p.column(Field::damage)[i] > damaged ? p.column(Field::mass)[i] : 0.0;
-                                }) / now.mass;
+    row.damaged_mass_fraction =
+        parallel_sum<double>(
+            p.size(),
+            [&](std::size_t i) { return p.column(Field::damage)[i] > damaged ? p.column(Field::mass)[i] : 0.0; }) /
+        now.mass;
   if (fragments) {
     row.fragments = static_cast<std::int64_t>(fragments->fragments.size());
     row.largest_fragment_mass_fraction =
-        fragments->fragments.empty() ? 0 : fragments->fragments.front().carried.mass / fragment_context(sim).target_mass;
+        fragments->fragments.empty() ? 0
+                                     : fragments->fragments.front().carried.mass / fragment_context(sim).target_mass;
   }
   return row;
 }
@@ -110,8 +114,8 @@ void Progress<Dim>::observe(Simulation<Dim>& sim, bool last) {
       limiting < sim.particles.size()
           ? " in " + sim.scene.bodies[static_cast<std::size_t>(sim.particles.label(Label::body)[limiting])].name
           : "";
-  spdlog::info("step {:6d}  t {:>10} of {}  dt {:>9} by {}{}  {:.2f} M particle-steps/s  dE/E {:+.1e}{}", sim.clock.step,
-               format_quantity(sim.clock.time, "s"), format_quantity(sim.scene.time_end, "s"),
+  spdlog::info("step {:6d}  t {:>10} of {}  dt {:>9} by {}{}  {:.2f} M particle-steps/s  dE/E {:+.1e}{}",
+               sim.clock.step, format_quantity(sim.clock.time, "s"), format_quantity(sim.scene.time_end, "s"),
                format_quantity(sim.clock.dt, "s"), sim.vote.reason, culprit, rate,
                conservation_errors(sim.initial, totals(sim.particles)).energy, eta);
   shown_ = now;

@@ -16,8 +16,7 @@ Watch<Dim>::Watch(const Simulation<Dim>& sim, std::filesystem::path folder, cons
   status_.time_end = sim.scene.time_end;
   status_.particles = static_cast<std::int64_t>(sim.particles.size());
   if (sim.scene.fragments.enabled)
-    status_.smallest_fragment =
-        sim.scene.fragments.min_particles * sim.particles.column(Field::mass)[0] / target_mass_;
+    status_.smallest_fragment = sim.scene.fragments.min_particles * sim.particles.column(Field::mass)[0] / target_mass_;
 }
 
 template <int Dim>

@@ -36,9 +36,13 @@ inline Float16 min(Float16 a, Float16 b) { return (Float16)_mm512_min_ps((__m512
 inline bool any_less(Double8 a, Double8 b) { return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LT_OQ) != 0; }
 #else
 template <class V>
-inline V max(V a, V b) { return a > b ? a : b; }
+inline V max(V a, V b) {
+  return a > b ? a : b;
+}
 template <class V>
-inline V min(V a, V b) { return a < b ? a : b; }
+inline V min(V a, V b) {
+  return a < b ? a : b;
+}
 /// True if a < b in any lane.
 inline bool any_less(Double8 a, Double8 b) {
   bool any = false;
@@ -124,8 +128,8 @@ struct WideSum<float> {
   void add(double weight, Float16 value) {
 #ifdef __AVX512F__
     low += weight * (Double8)_mm512_cvtps_pd(_mm512_castps512_ps256((__m512)value));
-    high += weight * (Double8)_mm512_cvtps_pd(
-                         _mm256_castpd_ps(_mm512_extractf64x4_pd(_mm512_castps_pd((__m512)value), 1)));
+    high +=
+        weight * (Double8)_mm512_cvtps_pd(_mm256_castpd_ps(_mm512_extractf64x4_pd(_mm512_castps_pd((__m512)value), 1)));
 #else
     for (int k = 0; k < 8; ++k) {
       low[k] += weight * static_cast<double>(value[k]);

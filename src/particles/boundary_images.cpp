@@ -20,7 +20,7 @@ void make_images(const Particles<Dim>& particles, const Boundary& boundary, doub
     for (int a = 0; a < Dim; ++a) {
       if (boundary.kind[a] == BoundaryKind::open) continue;
       const double x = particles.column(Field::position, a)[i];
-      const bool near_min = x < boundary.min[a] + reach, near_max = x > boundary.max[a] - reach;
+      const bool near_min = x<boundary.min[a] + reach, near_max = x> boundary.max[a] - reach;
       const bool periodic = boundary.kind[a] == BoundaryKind::periodic;
       const std::size_t before = count;
       for (std::size_t k = 0; k < before; ++k) {

@@ -1,21 +1,38 @@
 #pragma once
-/// The one catalogue of particle fields: name, shape, SI unit, role, meaning. Allocation, sorting, checkpoints, channels
-/// and CSV headers all follow from it. A column exists only if a stage or a channel names its field.
+/// The one catalogue of particle fields: name, shape, SI unit, role, meaning. Allocation, sorting, checkpoints,
+/// channels and CSV headers all follow from it. A column exists only if a stage or a channel names its field.
 #include <array>
 #include <string_view>
 
 namespace ejecta {
 
 enum class Field {
-  position, velocity, acceleration,
-  mass, density, density_rate,
-  specific_energy, heating,
-  pressure, sound_speed, smoothing_length, neighbour_sum,
-  velocity_gradient, shear_switch, approach_speed,
-  deviatoric_stress, stress_rate, plastic_strain,
-  distension, stress_factor,
-  damage, crack, crack_rate,
-  flaw_strain, flaw_exponent, flaw_count,
+  position,
+  velocity,
+  acceleration,
+  mass,
+  density,
+  density_rate,
+  specific_energy,
+  heating,
+  pressure,
+  sound_speed,
+  smoothing_length,
+  neighbour_sum,
+  velocity_gradient,
+  shear_switch,
+  approach_speed,
+  deviatoric_stress,
+  stress_rate,
+  plastic_strain,
+  distension,
+  stress_factor,
+  damage,
+  crack,
+  crack_rate,
+  flaw_strain,
+  flaw_exponent,
+  flaw_count,
   // derived on request, for channels only
   fragment_number,
   count
@@ -46,10 +63,14 @@ inline const FieldInfo& info(Field f) { return field_catalogue()[static_cast<std
 /// Number of components of a shape in Dim dimensions.
 constexpr int components(Shape shape, int dim) {
   switch (shape) {
-    case Shape::scalar: return 1;
-    case Shape::vector: return dim;
-    case Shape::tensor: return dim * dim;
-    case Shape::deviator: return dim == 2 ? 3 : 5;
+    case Shape::scalar:
+      return 1;
+    case Shape::vector:
+      return dim;
+    case Shape::tensor:
+      return dim * dim;
+    case Shape::deviator:
+      return dim == 2 ? 3 : 5;
   }
   return 0;
 }

@@ -133,7 +133,8 @@ void PairLists<Dim>::search(std::size_t cluster, std::vector<std::uint32_t>& fou
   std::array<simd::Double8, 2> x[Dim], support, margin;
   for (std::size_t g = 0; g < groups; ++g)
     for (int k = 0; k < 8; ++k) {
-      const Point& p = points_[std::min<std::size_t>(members.begin + 8 * g + static_cast<std::size_t>(k), members.end - 1)];
+      const Point& p =
+          points_[std::min<std::size_t>(members.begin + 8 * g + static_cast<std::size_t>(k), members.end - 1)];
       for (int a = 0; a < Dim; ++a) x[a][g][k] = p.x[a];
       support[g][k] = p.support;
       margin[g][k] = p.margin;

@@ -11,7 +11,7 @@
 namespace ejecta {
 
 struct Cluster {
-  std::uint32_t begin, end;              ///< members: particles begin..end-1, of one material, at most W
+  std::uint32_t begin, end;                  ///< members: particles begin..end-1, of one material, at most W
   std::size_t list_begin = 0, list_end = 0;  ///< place of its candidates in the list of its block
 };
 
@@ -19,14 +19,14 @@ template <int Dim>
 class PairLists {
  public:
   struct Settings {
-    double support = 2;        ///< support radius of the kernel in units of h
+    double support = 2;  ///< support radius of the kernel in units of h
     std::size_t cluster_size = 8;
-    double horizon = 0;        ///< time for which lists should stay valid [s]
+    double horizon = 0;  ///< time for which lists should stay valid [s]
     Boundary boundary;
   };
 
-  /// Builds the lists. Two particles are candidates if r < max(support h_i, support h_j) + margin_i + margin_j, where the
-  /// margin of a particle covers its own motion relative to the mean for the horizon: fast or far-flung particles
+  /// Builds the lists. Two particles are candidates if r < max(support h_i, support h_j) + margin_i + margin_j, where
+  /// the margin of a particle covers its own motion relative to the mean for the horizon: fast or far-flung particles
   /// widen their own search only.
   void build(const Particles<Dim>& particles, const Settings& settings);
 
@@ -67,8 +67,8 @@ class PairLists {
   std::vector<Point> points_;          ///< particles, then images, as of the time of building
   Vec<Dim> drift_ = Vec<Dim>::Zero();  ///< mean velocity at that time [m/s]
   std::vector<Image> images_;
-  std::vector<Cluster> clusters_;      ///< of particles
-  std::vector<Cluster> leaves_;        ///< clusters, then groups of images
+  std::vector<Cluster> clusters_;  ///< of particles
+  std::vector<Cluster> leaves_;    ///< clusters, then groups of images
   std::vector<std::vector<Node>> levels_;
   static constexpr std::size_t clusters_per_block = 64;
   std::vector<std::vector<std::uint32_t>> block_lists_;  ///< candidates of 64 clusters each

@@ -35,8 +35,7 @@ template <int Dim>
 void Particles<Dim>::swap_rates() {
   for (const FieldInfo& f : field_catalogue())
     if (has(f.field) && f.role == Role::rate)
-      for (int k = 0; k < components(f.shape, Dim); ++k)
-        columns_[slot(f.field, k)].swap(previous_[slot(f.field, k)]);
+      for (int k = 0; k < components(f.shape, Dim); ++k) columns_[slot(f.field, k)].swap(previous_[slot(f.field, k)]);
 }
 
 template <int Dim>

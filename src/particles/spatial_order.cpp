@@ -33,9 +33,8 @@ struct Splitter {
     const auto id = particles.label(Label::id);
     const std::size_t clusters = (range.size() + cluster_size - 1) / cluster_size;
     const std::size_t middle = range.begin + clusters / 2 * cluster_size;
-    std::nth_element(order + range.begin, order + middle, order + range.end, [&](std::uint32_t p, std::uint32_t q) {
-      return x[p] < x[q] || (x[p] == x[q] && id[p] < id[q]);
-    });
+    std::nth_element(order + range.begin, order + middle, order + range.end,
+                     [&](std::uint32_t p, std::uint32_t q) { return x[p] < x[q] || (x[p] == x[q] && id[p] < id[q]); });
     return middle;
   }
 

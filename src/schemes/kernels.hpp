@@ -12,14 +12,22 @@ namespace ejecta {
 namespace kernel_detail {
 /// max(a, 0) for a number or lane by lane.
 template <class V>
-inline V positive(V a) { return simd::max(a, V{}); }
+inline V positive(V a) {
+  return simd::max(a, V{});
+}
 /// A constant as a number of the same precision as the lanes of V: literals would widen float lanes.
 template <class V>
-struct ScalarOf { using type = V; };
+struct ScalarOf {
+  using type = V;
+};
 template <>
-struct ScalarOf<simd::Double8> { using type = double; };
+struct ScalarOf<simd::Double8> {
+  using type = double;
+};
 template <>
-struct ScalarOf<simd::Float16> { using type = float; };
+struct ScalarOf<simd::Float16> {
+  using type = float;
+};
 template <class V>
 using Scalar = typename ScalarOf<V>::type;
 }  // namespace kernel_detail
@@ -106,10 +114,14 @@ struct WendlandC4 {
 template <class F>
 decltype(auto) with_kernel(Kernel kernel, F&& f) {
   switch (kernel) {
-    case Kernel::cubic_spline: return f(CubicSpline{});
-    case Kernel::quintic_spline: return f(QuinticSpline{});
-    case Kernel::wendland_c2: return f(WendlandC2{});
-    case Kernel::wendland_c4: break;
+    case Kernel::cubic_spline:
+      return f(CubicSpline{});
+    case Kernel::quintic_spline:
+      return f(QuinticSpline{});
+    case Kernel::wendland_c2:
+      return f(WendlandC2{});
+    case Kernel::wendland_c4:
+      break;
   }
   return f(WendlandC4{});
 }

@@ -18,7 +18,7 @@ struct PairPassSettings {
   bool velocity_gradient = false;    ///< store dv_a/dx_b (always with stress)
   bool gradient_correction = false;  ///< make it exact for linear velocity fields
   double viscosity_alpha = 1, viscosity_beta = 2;
-  double length_unit = 1;            ///< a power of two near the particle spacing [m]
+  double length_unit = 1;  ///< a power of two near the particle spacing [m]
   Boundary boundary;
 };
 
@@ -36,10 +36,10 @@ class PairPass {
   ///   du_i/dt = sum_j m_j (v_j - v_i) . (sigma_i/rho_i^2 - Pi_ij/2 I) . grad_i W_ij
   ///   dv_a/dx_b = 1/rho_i sum_j m_j (v_j - v_i)_a (grad_i W_ij)_b, times the inverse of the same sum over (x_j - x_i)
   ///               if corrected
-  /// [Monaghan 2005, eqs 2.37, 3.3; Randles & Libersky 1996 for the correction]; Pi is Monaghan's viscosity (1992), with
-  /// the switch of Balsara (1995) and (1/rho_i + 1/rho_j)/2 as its 1/rho. The energy rate is each side's own share of the
-  /// work of the pair force, so the two shares of a pair add up to all of it.
-  /// reads what pack_records reads; writes acceleration, heating, neighbour_sum, approach_speed, velocity_gradient.
+  /// [Monaghan 2005, eqs 2.37, 3.3; Randles & Libersky 1996 for the correction]; Pi is Monaghan's viscosity (1992),
+  /// with the switch of Balsara (1995) and (1/rho_i + 1/rho_j)/2 as its 1/rho. The energy rate is each side's own share
+  /// of the work of the pair force, so the two shares of a pair add up to all of it. reads what pack_records reads;
+  /// writes acceleration, heating, neighbour_sum, approach_speed, velocity_gradient.
   virtual void rates(Particles<Dim>& particles, const PairLists<Dim>& lists, std::span<const double> intact) = 0;
 
   virtual std::size_t bytes() const = 0;

@@ -59,8 +59,7 @@ double double_contract(const double* s, const double* L) {
   } else if constexpr (Dim == 2) {
     return s[0] * L[0] + s[1] * L[3] + s[2] * (L[1] + L[2]);
   } else {
-    return s[0] * L[0] + s[1] * L[4] + s[2] * L[8] + s[3] * (L[1] + L[3]) + s[4] * (L[2] + L[6]) +
-           s[5] * (L[5] + L[7]);
+    return s[0] * L[0] + s[1] * L[4] + s[2] * L[8] + s[3] * (L[1] + L[3]) + s[4] * (L[2] + L[6]) + s[5] * (L[5] + L[7]);
   }
 }
 
@@ -147,11 +146,12 @@ void PairPassOf<T, Dim, Stress, Gradient, Correction, K>::cluster_rates(
       approach += dv[a] * dx[a];
       work += dv[a] * pair.gradient[a];
     }
-    // Monaghan (1992): mu = h v.x / (r^2 + 0.01 h^2) while approaching, Pi = (-alpha c mu + beta mu^2) / rho. Here mu <= 0.
+    // Monaghan (1992): mu = h v.x / (r^2 + 0.01 h^2) while approaching, Pi = (-alpha c mu + beta mu^2) / rho. Here mu
+    // <= 0.
     const V mu = pair.mean_h * simd::min(approach, V{}) * simd::reciprocal(V(r2 + T(0.01) * pair.mean_h * pair.mean_h));
     const V sound = T(0.5) * (sound_speed + j[R::sound_speed]);
-    const V viscosity = T(0.5) * (shear_switch + j[R::shear_switch]) * (T(0.5) * (density_reciprocal + j[R::density_reciprocal])) *
-                        (mu * (beta * mu - alpha * sound));
+    const V viscosity = T(0.5) * (shear_switch + j[R::shear_switch]) *
+                        (T(0.5) * (density_reciprocal + j[R::density_reciprocal])) * (mu * (beta * mu - alpha * sound));
     // sigma_i/rho_i^2 + sigma_j/rho_j^2 - Pi I
     V total[R::stresses], force[Dim];
     for (int s = 0; s < R::stresses; ++s) total[s] = stress[s] + j[R::stress + s];
@@ -186,8 +186,8 @@ void PairPassOf<T, Dim, Stress, Gradient, Correction, K>::cluster_rates(
     double own_stress[R::stresses], raw[Gradient ? Dim * Dim : 1];
     for (int s = 0; s < R::stresses; ++s) own_stress[s] = static_cast<double>(stress[s][k]);
     for (int s = 0; s < (Gradient ? Dim * Dim : 1); ++s) raw[s] = static_cast<double>(gradient[s][k]) * per_unit;
-    particles.column(Field::heating)[i] = pair_detail::double_contract<Stress, Gradient, Dim>(own_stress, raw) -
-                                          0.5 * viscous_heating.lane(k) * per_unit;
+    particles.column(Field::heating)[i] =
+        pair_detail::double_contract<Stress, Gradient, Dim>(own_stress, raw) - 0.5 * viscous_heating.lane(k) * per_unit;
     particles.column(Field::neighbour_sum)[i] = static_cast<double>(moment[k]);
     particles.column(Field::approach_speed)[i] = -static_cast<double>(fastest[k]);
     if constexpr (Gradient) {
@@ -240,8 +240,7 @@ void PairPassOf<T, Dim, Stress, Gradient, Correction, K>::cluster_density(
   for (std::size_t i = c.begin; i < c.end; ++i) {
     const int k = static_cast<int>(i - c.begin);
     const double n = static_cast<double>(h_reciprocal[k]);
-    particles.column(Field::density)[i] =
-        K::template norm<Dim> * (Dim == 2 ? n * n : n * n * n) * density.lane(k);
+    particles.column(Field::density)[i] = K::template norm<Dim> * (Dim == 2 ? n * n : n * n * n) * density.lane(k);
     particles.column(Field::neighbour_sum)[i] = static_cast<double>(moment[k]);
   }
 }

@@ -11,7 +11,9 @@ double power_of_two_below(double length) { return std::ldexp(1.0, std::ilogb(len
 namespace {
 
 template <int Dim>
-double power(double a) { return Dim == 2 ? a * a : a * a * a; }
+double power(double a) {
+  return Dim == 2 ? a * a : a * a * a;
+}
 
 template <class T, class R, int Dim>
 void set_position(T* record, int axis, double x) {
@@ -92,19 +94,19 @@ void pack_records(const Particles<Dim>& particles, const std::vector<Image>& ima
 }
 
 template void pack_records<double, 2, false>(const Particles<2>&, const std::vector<Image>&, const Boundary&, double,
-                                           double, std::span<const double>, std::vector<double>&);
+                                             double, std::span<const double>, std::vector<double>&);
 template void pack_records<double, 2, true>(const Particles<2>&, const std::vector<Image>&, const Boundary&, double,
-                                           double, std::span<const double>, std::vector<double>&);
+                                            double, std::span<const double>, std::vector<double>&);
 template void pack_records<float, 2, false>(const Particles<2>&, const std::vector<Image>&, const Boundary&, double,
-                                           double, std::span<const double>, std::vector<float>&);
+                                            double, std::span<const double>, std::vector<float>&);
 template void pack_records<float, 2, true>(const Particles<2>&, const std::vector<Image>&, const Boundary&, double,
                                            double, std::span<const double>, std::vector<float>&);
 template void pack_records<double, 3, false>(const Particles<3>&, const std::vector<Image>&, const Boundary&, double,
-                                           double, std::span<const double>, std::vector<double>&);
+                                             double, std::span<const double>, std::vector<double>&);
 template void pack_records<double, 3, true>(const Particles<3>&, const std::vector<Image>&, const Boundary&, double,
-                                           double, std::span<const double>, std::vector<double>&);
+                                            double, std::span<const double>, std::vector<double>&);
 template void pack_records<float, 3, false>(const Particles<3>&, const std::vector<Image>&, const Boundary&, double,
-                                           double, std::span<const double>, std::vector<float>&);
+                                            double, std::span<const double>, std::vector<float>&);
 template void pack_records<float, 3, true>(const Particles<3>&, const std::vector<Image>&, const Boundary&, double,
                                            double, std::span<const double>, std::vector<float>&);
 

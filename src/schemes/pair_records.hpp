@@ -17,13 +17,13 @@ struct PairRecord {
   static constexpr bool split = sizeof(T) == sizeof(float);
   static constexpr int stresses = Stress ? Dim * (Dim + 1) / 2 : 1;
   static constexpr int x = 0;
-  static constexpr int x_low = x + Dim;                        ///< only if split
-  static constexpr int v = x_low + (split ? Dim : 0);          ///< velocity
+  static constexpr int x_low = x + Dim;                ///< only if split
+  static constexpr int v = x_low + (split ? Dim : 0);  ///< velocity
   static constexpr int h = v + Dim;
-  static constexpr int h_reciprocal = h + 1;                   ///< 1/h
-  static constexpr int slope_norm = h_reciprocal + 1;          ///< norm / h^(Dim+2)
-  static constexpr int mass = slope_norm + 1;                  ///< m / unit^Dim
-  static constexpr int density_reciprocal = mass + 1;          ///< 1/rho
+  static constexpr int h_reciprocal = h + 1;           ///< 1/h
+  static constexpr int slope_norm = h_reciprocal + 1;  ///< norm / h^(Dim+2)
+  static constexpr int mass = slope_norm + 1;          ///< m / unit^Dim
+  static constexpr int density_reciprocal = mass + 1;  ///< 1/rho
   static constexpr int sound_speed = density_reciprocal + 1;
   static constexpr int shear_switch = sound_speed + 1;
   /// sigma/rho^2 with sigma = -P I + S: xx yy xy | xx yy zz xy xz yz; or -P/rho^2 alone

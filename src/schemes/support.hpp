@@ -5,7 +5,8 @@
 
 namespace ejecta {
 
-/// Isotropic smoothing length h (SPH). Lanes i against one partner j; the gradient is the mean of those with h_i and h_j.
+/// Isotropic smoothing length h (SPH). Lanes i against one partner j; the gradient is the mean of those with h_i and
+/// h_j.
 template <class V, int Dim, class K>
 struct IsotropicSupport {
   using S = kernel_detail::Scalar<V>;

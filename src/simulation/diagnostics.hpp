@@ -7,11 +7,11 @@
 namespace ejecta {
 
 struct Totals {
-  double mass = 0;                                      ///< kg (kg/m in plane strain)
-  Vec<3> momentum = Vec<3>::Zero();                     ///< kg m/s
-  Vec<3> angular_momentum = Vec<3>::Zero();             ///< about the origin [kg m^2/s]
-  double momentum_scale = 0;                            ///< sum |m v|, to measure momentum errors against [kg m/s]
-  double kinetic = 0, internal = 0;                     ///< J
+  double mass = 0;                           ///< kg (kg/m in plane strain)
+  Vec<3> momentum = Vec<3>::Zero();          ///< kg m/s
+  Vec<3> angular_momentum = Vec<3>::Zero();  ///< about the origin [kg m^2/s]
+  double momentum_scale = 0;                 ///< sum |m v|, to measure momentum errors against [kg m/s]
+  double kinetic = 0, internal = 0;          ///< J
   double energy() const { return kinetic + internal; }
   Totals& operator+=(const Totals& o);
 };

@@ -62,7 +62,8 @@ void correct(Particles<Dim>& particles, double dt) {
     // The closing kick of length dt/2 ends at the corrected velocity: vbar - v* = dt/4 a_new - dt/2 a_old.
     for (int k = 0; k < Dim; ++k) {
       const auto a = particles.column(Field::acceleration, k), before = particles.previous(Field::acceleration, k);
-      for (std::size_t i = begin; i < end; ++i) energy[i] -= 0.5 * dt * a[i] * (0.25 * dt * a[i] - 0.5 * dt * before[i]);
+      for (std::size_t i = begin; i < end; ++i)
+        energy[i] -= 0.5 * dt * a[i] * (0.25 * dt * a[i] - 0.5 * dt * before[i]);
     }
     for_pair_columns(particles, [&](auto y, auto now, auto before) {
       for (std::size_t i = begin; i < end; ++i) y[i] += 0.5 * dt * (now[i] - before[i]);

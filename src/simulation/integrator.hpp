@@ -10,9 +10,9 @@ namespace ejecta {
 template <int Dim>
 void predict(Particles<Dim>& particles, double dt, double previous_dt);
 
-/// Replaces, in what was predicted, the rates at the start by the mean of those at both ends: y += dt/2 (y'_new - y'_old).
-/// Together with predict() this is second order with one evaluation of the rates a step; for x and v it is the leapfrog
-/// in kick-drift-kick form.
+/// Replaces, in what was predicted, the rates at the start by the mean of those at both ends: y += dt/2 (y'_new -
+/// y'_old). Together with predict() this is second order with one evaluation of the rates a step; for x and v it is the
+/// leapfrog in kick-drift-kick form.
 ///
 /// Energy. The heating w_i is evaluated with the predicted velocities v*, and sum m (w + a.v*) = 0 for any pair force.
 /// A kick of length s takes v to v + s a, with mean velocity vbar; with u += s w - s a.(vbar - v*) the sum

@@ -9,8 +9,8 @@ namespace ejecta {
 
 namespace {
 
-/// Speed of longitudinal waves from that of the fluid: c^2 + 4 G / (3 rho_s). Solid expanded beyond its rest density has
-/// broken or melted; counting its shear modulus in full would let a few stray particles dictate the time step.
+/// Speed of longitudinal waves from that of the fluid: c^2 + 4 G / (3 rho_s). Solid expanded beyond its rest density
+/// has broken or melted; counting its shear modulus in full would let a few stray particles dictate the time step.
 double longitudinal(double fluid_speed, double shear_modulus, double solid_density, double rest_density) {
   return std::sqrt(fluid_speed * fluid_speed + 4 * shear_modulus / (3 * std::max(solid_density, rest_density)));
 }
@@ -33,14 +33,13 @@ void porous_state(Simulation<Dim>& sim, const Material& material, const EosT& eo
   const bool coupled = p.has(Field::stress_factor);
   sim.unconverged += parallel_sum<std::int64_t>(range.size(), [&](std::size_t k) -> std::int64_t {
     const std::size_t i = range.begin + k;
-    const DistensionResult r = solve_distension(porosity.curve, eos, rho[i], e[i], alpha[i],
-                                                numerics.distension_solver, numerics.distension_tolerance);
+    const DistensionResult r = solve_distension(porosity.curve, eos, rho[i], e[i], alpha[i], numerics.distension_solver,
+                                                numerics.distension_tolerance);
     alpha[i] = r.alpha;
     pressure[i] = bulk_pressure(r.solid, r.alpha);
     const double solid_density = r.alpha * rho[i];
-    const double solid_speed =
-        longitudinal(ejecta::sound_speed(r.solid, solid_density, eos.sound_speed_floor()), shear, solid_density,
-                     eos.reference_density());
+    const double solid_speed = longitudinal(ejecta::sound_speed(r.solid, solid_density, eos.sound_speed_floor()), shear,
+                                            solid_density, eos.reference_density());
     sound[i] = porous_sound_speed(porosity, solid_speed, r.alpha);
     if (coupled)
       p.column(Field::stress_factor)[i] =
@@ -58,7 +57,8 @@ void dense_state(Simulation<Dim>& sim, const Material& material, const EosT& eos
   parallel_for(range.begin, range.end, [&](std::size_t i) {
     const EosPoint point = eos.evaluate(rho[i], e[i]);
     pressure[i] = point.pressure;
-    sound[i] = longitudinal(ejecta::sound_speed(point, rho[i], eos.sound_speed_floor()), shear, rho[i], eos.reference_density());
+    sound[i] = longitudinal(ejecta::sound_speed(point, rho[i], eos.sound_speed_floor()), shear, rho[i],
+                            eos.reference_density());
   });
 }
 
@@ -109,10 +109,10 @@ void strength(Simulation<Dim>& sim) {
           parallel_for(range.begin, range.end, [&](std::size_t i) {
             // The model speaks of the solid: its pressure is alpha P, and the body bears 1/alpha of its stress.
             const double alpha = distension_of(p, material, i);
-            const double cold = model.yield(alpha * p.column(Field::pressure)[i], damaged ? p.column(Field::damage)[i] : 0.0);
+            const double cold =
+                model.yield(alpha * p.column(Field::pressure)[i], damaged ? p.column(Field::damage)[i] : 0.0);
             const double yield = cold * melt_factor(p.column(Field::specific_energy)[i], material.melt_energy) / alpha;
-            const RadialReturn r =
-                radial_return<Dim>(deviator(p, i), yield, material.elastic->shear_modulus / alpha);
+            const RadialReturn r = radial_return<Dim>(deviator(p, i), yield, material.elastic->shear_modulus / alpha);
             if (r.scale == 1) return;
             for (int k = 0; k < deviator_size<Dim>; ++k) p.column(Field::deviatoric_stress, k)[i] *= r.scale;
             p.column(Field::plastic_strain)[i] += r.plastic_strain;
@@ -142,7 +142,8 @@ void damage(Simulation<Dim>& sim) {
         const Flaws flaws{p.column(Field::flaw_strain)[i], p.column(Field::flaw_exponent)[i],
                           p.column(Field::flaw_count)[i]};
         // Pressure and deviator are still those before damage, so the strain is that of the undamaged solid.
-        const double active = active_flaws(opening_strain<Dim>(pressure, deviator(p, i), flaws.strain, young, alpha), flaws);
+        const double active =
+            active_flaws(opening_strain<Dim>(pressure, deviator(p, i), flaws.strain, young, alpha), flaws);
         const double crack_speed = material.damage->crack_speed_factor * p.column(Field::sound_speed)[i];
         p.column(Field::crack_rate)[i] =
             crack < crack_limit(active, flaws)

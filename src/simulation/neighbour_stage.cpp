@@ -24,8 +24,8 @@ void neighbours(Simulation<Dim>& sim) {
     sim.particles.reorder(sim.order);
     ++sim.sorts;
   }
-  sim.lists.build(sim.particles, {kernel_support(sim.scene.numerics.kernel), cluster, steps_ahead * sim.clock.dt,
-                                  sim.scene.boundary});
+  sim.lists.build(sim.particles,
+                  {kernel_support(sim.scene.numerics.kernel), cluster, steps_ahead * sim.clock.dt, sim.scene.boundary});
   sim.lists_built_at = sim.clock.time;
   ++sim.list_builds;
 }

@@ -45,8 +45,10 @@ std::vector<Seedling<Dim>> sow(const Scene& scene, const std::vector<int>& body_
     const double spacing = scene.spacing * body.spacing_factor;
     const PointCloud<Dim> cloud = fill<Dim>(body, spacing, scene.lattice);
     if (cloud.points.empty())
-      problems.push_back(fmt::format("{}: bodies.{}: expected room for at least one particle, got none at a spacing of "
-                                     "{:.4g} m", scene.file, body.name, spacing));
+      problems.push_back(
+          fmt::format("{}: bodies.{}: expected room for at least one particle, got none at a spacing of "
+                      "{:.4g} m",
+                      scene.file, body.name, spacing));
     std::size_t shared = 0;
     for (const Vec<Dim>& x : cloud.points) {
       for (std::size_t other = 0; other < b; ++other)
@@ -55,8 +57,10 @@ std::vector<Seedling<Dim>> sow(const Scene& scene, const std::vector<int>& body_
           {x, cloud.volume, std::pow(cloud.volume, 1.0 / Dim), static_cast<int>(b), body_material[b]});
     }
     if (shared > 0)
-      problems.push_back(fmt::format("{}: bodies.{}: expected a body clear of all earlier ones, got an overlap of {} "
-                                     "particles", scene.file, body.name, shared));
+      problems.push_back(
+          fmt::format("{}: bodies.{}: expected a body clear of all earlier ones, got an overlap of {} "
+                      "particles",
+                      scene.file, body.name, shared));
   }
   if (!problems.empty()) throw InputError(problems);
   std::vector<Seedling<Dim>> all;
@@ -158,7 +162,8 @@ std::unique_ptr<Simulation<Dim>> set_up(const Scene& scene, const std::vector<Ma
   check_health(*sim, "set-up");
   // The first step has no step before it: its previous rates are the present ones.
   for (int a = 0; a < Dim; ++a)
-    std::ranges::copy(sim->particles.column(Field::acceleration, a), sim->particles.previous(Field::acceleration, a).begin());
+    std::ranges::copy(sim->particles.column(Field::acceleration, a),
+                      sim->particles.previous(Field::acceleration, a).begin());
   sim->initial = totals(sim->particles);
   sim->initial_particles = sim->particles.size();
   return sim;

@@ -13,8 +13,8 @@ struct PointCloud {
   double volume = 0;             ///< of one point's cell [m^3; m^2 in plane strain]
 };
 
-/// Particles of a body at about the given spacing [m] (edge of a cube of equal volume). The volumes of all points add up
-/// to that of the body: a box gets a whole number of cells along each edge, the cloud of a round shape is scaled.
+/// Particles of a body at about the given spacing [m] (edge of a cube of equal volume). The volumes of all points add
+/// up to that of the body: a box gets a whole number of cells along each edge, the cloud of a round shape is scaled.
 template <int Dim>
 PointCloud<Dim> fill(const Body& body, double spacing, Lattice lattice);
 

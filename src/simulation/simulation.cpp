@@ -46,9 +46,10 @@ void step(Simulation<Dim>& sim, double dt_limit) {
     if (clock.step % steps_between_energy_checks != 0) return;
     const double drift = conservation_errors(sim.initial, totals(sim.particles)).energy;
     if (!(std::abs(drift) <= sim.scene.numerics.max_energy_drift))  // so that no number at all is caught too
-      throw SimulationError(fmt::format("time {:.6g} s, step {}: total energy has drifted by {:.3g} of its value "
-                                        "(numerics.max_energy_drift = {:.3g})",
-                                        clock.time, clock.step, drift, sim.scene.numerics.max_energy_drift));
+      throw SimulationError(
+          fmt::format("time {:.6g} s, step {}: total energy has drifted by {:.3g} of its value "
+                      "(numerics.max_energy_drift = {:.3g})",
+                      clock.time, clock.step, drift, sim.scene.numerics.max_energy_drift));
   });
 }
 

@@ -30,14 +30,14 @@ struct Stage {
 
 /// The smallest of the time steps the stages can bear, and who asked for it.
 struct TimeStepVote {
-  double dt;               ///< s
+  double dt;  ///< s
   std::string_view reason;
-  std::size_t particle;    ///< index, or size() if nobody
+  std::size_t particle;  ///< index, or size() if nobody
 };
 
 struct Clock {
-  double time = 0;              ///< s
-  double dt = 0;                ///< last step [s]
+  double time = 0;  ///< s
+  double dt = 0;    ///< last step [s]
   std::int64_t step = 0;
 };
 
@@ -55,24 +55,24 @@ class Observer {
 template <int Dim>
 struct Simulation {
   Scene scene;
-  std::vector<Material> materials;            ///< by material number (Label::material)
-  std::vector<int> body_material;             ///< material number of each body
+  std::vector<Material> materials;  ///< by material number (Label::material)
+  std::vector<int> body_material;   ///< material number of each body
   Particles<Dim> particles;
   std::vector<Stage<Dim>> stages;
   PairLists<Dim> lists;
   std::unique_ptr<PairPass<Dim>> pass;
   std::unique_ptr<SupportSize> support;
-  std::vector<double> intact;                 ///< share of the deviator that damage leaves; empty without damage
-  std::vector<std::uint32_t> order;           ///< scratch of the spatial sort
-  double lists_built_at = 0;                  ///< s
+  std::vector<double> intact;        ///< share of the deviator that damage leaves; empty without damage
+  std::vector<std::uint32_t> order;  ///< scratch of the spatial sort
+  double lists_built_at = 0;         ///< s
   std::int64_t list_builds = 0, sorts = 0;
-  std::int64_t unconverged = 0;               ///< particle-steps in which the distension solver failed (plain Newton may)
+  std::int64_t unconverged = 0;  ///< particle-steps in which the distension solver failed (plain Newton may)
   Clock clock;
   TimeStepVote vote{0, "start", 0};
-  Totals initial;                             ///< conserved quantities at the start
+  Totals initial;  ///< conserved quantities at the start
   std::size_t initial_particles = 0;
   StageTimers timers;
-  double wall_seconds = 0;                    ///< spent in steps so far
+  double wall_seconds = 0;  ///< spent in steps so far
 };
 
 /// Sets a scene up: bodies filled, columns allocated, flaws drawn, stages chosen and evaluated once at t = 0.

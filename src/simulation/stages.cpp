@@ -10,9 +10,8 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
   auto any = [&](auto has) { return std::any_of(materials.begin(), materials.end(), has); };
   const bool solid = any([](const Material& m) { return m.solid(); });
   const bool porous = any([](const Material& m) { return m.porosity.has_value(); });
-  const bool breaks = any([](const Material& m) {
-    return m.damage.has_value() || (m.porosity && m.porosity->crush_damage && m.solid());
-  });
+  const bool breaks = any(
+      [](const Material& m) { return m.damage.has_value() || (m.porosity && m.porosity->crush_damage && m.solid()); });
   const bool grady_kipp = any([](const Material& m) { return m.damage.has_value(); });
   const bool continuity = scene.numerics.density == DensityMethod::continuity;
   const bool balsara = scene.numerics.balsara;
@@ -32,8 +31,9 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
     add("density", {position, smoothing_length, mass}, {density, neighbour_sum, smoothing_length},
         summation_density<Dim>);
   add("equation of state", extended({density, specific_energy}, porous, {distension}),
-      extended({pressure, sound_speed}, porous, solid ? std::initializer_list<Field>{distension, stress_factor}
-                                                       : std::initializer_list<Field>{distension}),
+      extended(
+          {pressure, sound_speed}, porous,
+          solid ? std::initializer_list<Field>{distension, stress_factor} : std::initializer_list<Field>{distension}),
       equation_of_state<Dim>);
   if (solid)
     add("strength", extended({deviatoric_stress, pressure, specific_energy}, breaks, {Field::damage}),
@@ -50,7 +50,8 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
     add("strain rates", extended({velocity_gradient, density}, solid, {deviatoric_stress}),
         extended(extended({}, continuity, {density_rate}), solid, {stress_rate}), strain_rates<Dim>);
   if (balsara)
-    add("shear switch", {velocity_gradient, sound_speed, smoothing_length}, {Field::shear_switch}, ejecta::shear_switch<Dim>);
+    add("shear switch", {velocity_gradient, sound_speed, smoothing_length}, {Field::shear_switch},
+        ejecta::shear_switch<Dim>);
   if (continuity && scene.numerics.smoothing_growth > 1)
     add("smoothing lengths", {neighbour_sum, smoothing_length, mass}, {smoothing_length}, smoothing_lengths<Dim>);
   return stages;

@@ -28,8 +28,9 @@ TimeStepVote vote_time_step(const Simulation<Dim>& sim) {
   auto compression = [&](std::size_t i) {
     return compresses ? p.column(Field::density)[i] / std::abs(p.column(Field::density_rate)[i]) : never;
   };
-  const IndexedMin least = parallel_min(
-      p.size(), never, [&](std::size_t i) { return std::min({courant(i), acceleration(i), compression(i)}); });
+  const IndexedMin least = parallel_min(p.size(), never, [&](std::size_t i) {
+    return std::min({courant(i), acceleration(i), compression(i)});
+  });
   if (least.index == p.size()) return {never, "end of run", p.size()};
   const std::string_view reason = least.value == courant(least.index)        ? "Courant condition"
                                   : least.value == acceleration(least.index) ? "acceleration"
@@ -75,8 +76,8 @@ void check_health(const Simulation<Dim>& sim, std::string_view stage) {
   const Particles<Dim>& p = sim.particles;
   auto healthy = [&](std::size_t i) {
     double sum = p.column(Field::specific_energy)[i] + p.column(Field::density)[i];
-    for (int a = 0; a < Dim; ++a) sum += p.column(Field::position, a)[i] + p.column(Field::velocity, a)[i] +
-                                         p.column(Field::acceleration, a)[i];
+    for (int a = 0; a < Dim; ++a)
+      sum += p.column(Field::position, a)[i] + p.column(Field::velocity, a)[i] + p.column(Field::acceleration, a)[i];
     return std::isfinite(sum) && p.column(Field::density)[i] > 0;
   };
   const IndexedMin worst = parallel_min(p.size(), 0.5, [&](std::size_t i) { return healthy(i) ? 1.0 : 0.0; });
