@@ -34,7 +34,6 @@ const std::array<FieldInfo, field_count>& field_catalogue() {
       {Field::flaw_exponent, "flaw_exponent", scalar, "1", constant,
        "growth of active flaws: n = (strain/weakest)^exponent"},
       {Field::flaw_count, "flaw_count", scalar, "1", constant, "number of flaws"},
-      {Field::fragment_number, "fragment_number", scalar, "1", derived, "stable fragment number, 0 is dust"},
   }};
   return catalogue;
 }

@@ -33,8 +33,6 @@ enum class Field {
   flaw_strain,
   flaw_exponent,
   flaw_count,
-  // derived on request, for channels only
-  fragment_number,
   count
 };
 inline constexpr int field_count = static_cast<int>(Field::count);

@@ -165,7 +165,6 @@ std::unique_ptr<Simulation<Dim>> set_up(const Scene& scene, const std::vector<Ma
     std::ranges::copy(sim->particles.column(Field::acceleration, a),
                       sim->particles.previous(Field::acceleration, a).begin());
   sim->initial = totals(sim->particles);
-  sim->initial_particles = sim->particles.size();
   return sim;
 }
 

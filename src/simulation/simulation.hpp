@@ -70,7 +70,6 @@ struct Simulation {
   Clock clock;
   TimeStepVote vote{0, "start", 0};
   Totals initial;  ///< conserved quantities at the start
-  std::size_t initial_particles = 0;
   StageTimers timers;
   double wall_seconds = 0;  ///< spent in steps so far
 };
