@@ -41,7 +41,7 @@ TEST(Stages, PorousRockHasAllItsOwn) {
   for (const Field f : {deviatoric_stress, stress_rate, plastic_strain, distension, stress_factor, Field::damage, crack,
                         crack_rate, flaw_strain, flaw_exponent, flaw_count, velocity_gradient, density_rate})
     EXPECT_TRUE(sim->particles.has(f)) << info(f).name;
-  for (const Field f : {Field::shear_switch, fragment_number}) EXPECT_FALSE(sim->particles.has(f)) << info(f).name;
+  EXPECT_FALSE(sim->particles.has(Field::shear_switch));
 }
 
 TEST(Stages, EachIsThereOnlyOnRequest) {
