@@ -67,7 +67,9 @@ void check_use(const Scene& scene, const std::vector<Material>& materials, std::
           "numerics.density: expected continuity, got summation: {} is no gas, and a summed density falls off "
           "at free surfaces",
           body.material));
-    if (is_set(body.pressure) && !gas)
+    if (!body.profile.deviatoric_stress.empty() && !found->solid())
+      report(fmt::format("profile.deviatoric_stress: only a solid can bear it, and {} is none", body.material));
+    if ((is_set(body.pressure) || !body.profile.pressure.empty()) && !gas)
       report(fmt::format("pressure: only a gas can be given one, and {} is none", body.material));
     const double bulk = found->bulk_density();
     if (found->porosity && is_set(body.density) && std::abs(body.density - bulk) > 1e-6 * bulk)

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <set>
 
+#include "base/errors.hpp"
+#include "scene/formula.hpp"
 #include "scene/scene_reader.hpp"
 #include "scene/units.hpp"
 
@@ -55,6 +57,12 @@ void check_body(const Scene& scene, const Body& body, const std::string& path, c
   }
   if (needs->radius && is_set(body.radius)) narrowest = 2 * body.radius;
   if (needs->length && is_set(body.length)) narrowest = std::min(narrowest, body.length);
+  if (body.inner_radius > 0 && !needs->radius)
+    report(path + ".inner_radius", fmt::format("a {} has none", body.shape));
+  else if (is_set(body.radius) && body.inner_radius >= body.radius)
+    report(path + ".inner_radius",
+           fmt::format("expected less than the radius {}, got {}", format_quantity(body.radius, "m"),
+                       format_quantity(body.inner_radius, "m")));
   if (body.axis == Triple{0, 0, 0}) report(path + ".axis", "expected a direction, got [0, 0, 0]");
   // A body made to measure may be thinner than the spacing by rounding.
   const double spacing = scene.spacing * body.spacing_factor;
@@ -65,6 +73,31 @@ void check_body(const Scene& scene, const Body& body, const std::string& path, c
   if (scene.dimension == 2 && (body.velocity[2] != 0 || body.center[2] != 0))
     report(path + (body.velocity[2] != 0 ? ".velocity" : ".center"), "expected no z component in 2D");
   if (is_set(body.pressure) && body.specific_energy != 0)
+    report(path + ".pressure", "expected either pressure or specific_energy, got both");
+}
+
+void check_profile(const Scene& scene, const Body& body, const std::string& path, const Report& report) {
+  const Profile& profile = body.profile;
+  const auto compiles = [&](const std::string& key, const std::string& text) {
+    try {
+      Formula{text};
+    } catch (const InputError& error) {
+      report(path + "." + key, error.what());
+    }
+  };
+  const auto check_list = [&](const std::string& key, const std::vector<std::string>& texts, int components) {
+    if (!texts.empty() && texts.size() != static_cast<std::size_t>(components))
+      report(path + "." + key,
+             fmt::format("expected {} formulas in {}D, got {}", components, scene.dimension, texts.size()));
+    for (const std::string& text : texts) compiles(key, text);
+  };
+  check_list("displacement", profile.displacement, scene.dimension);
+  check_list("velocity", profile.velocity, scene.dimension);
+  check_list("deviatoric_stress", profile.deviatoric_stress, scene.dimension == 2 ? 3 : 5);
+  if (!profile.density.empty()) compiles("density", profile.density);
+  if (!profile.pressure.empty()) compiles("pressure", profile.pressure);
+  if (!profile.specific_energy.empty()) compiles("specific_energy", profile.specific_energy);
+  if (!profile.pressure.empty() && !profile.specific_energy.empty())
     report(path + ".pressure", "expected either pressure or specific_energy, got both");
 }
 
@@ -104,6 +137,7 @@ void check_scene(const Scene& scene, const Document& document, Problems& problem
       report(path + ".name", fmt::format("expected a name of its own, got \"{}\" again", body.name));
     used_materials.insert(body.material);
     check_body(scene, body, path, report);
+    check_profile(scene, body, path + ".profile", report);
   }
   for (const auto& [name, values] : scene.materials)
     if (!used_materials.contains(name)) {

@@ -11,6 +11,7 @@ void describe(Describer& d, Body& b) {
          "disc and rectangle in 2D, the others in 3D");
   d.triple("center", b.center, "m", "centre of the shape");
   d.number("radius", b.radius, "m", positive, "of a sphere, disc or cylinder");
+  d.number("inner_radius", b.inner_radius, "m", non_negative, "of the hole in a sphere, disc or cylinder");
   d.triple("size", b.size, "m", "edge lengths of a box or rectangle");
   d.number("length", b.length, "m", positive, "of a cylinder, along its axis");
   d.triple("axis", b.axis, "1", "direction of a cylinder's axis");
@@ -19,6 +20,16 @@ void describe(Describer& d, Body& b) {
   d.number("pressure", b.pressure, "Pa", non_negative, "of a gas at the start; sets its specific energy");
   d.number("specific_energy", b.specific_energy, "J/kg", any_number, "at the start, where no pressure is given");
   d.number("spacing_factor", b.spacing_factor, "1", positive, "particle spacing relative to resolution.spacing");
+  d.number("jitter", b.jitter, "1", between(0, 1), "random displacement along each axis, up to this many spacings");
+}
+
+void describe(Describer& d, Profile& p) {
+  d.texts("displacement", p.displacement, "m; moves particles from their lattice places, masses stay");
+  d.texts("velocity", p.velocity, "m/s");
+  d.text("density", p.density, "kg/m^3");
+  d.text("pressure", p.pressure, "Pa; of a gas");
+  d.text("specific_energy", p.specific_energy, "J/kg");
+  d.texts("deviatoric_stress", p.deviatoric_stress, "Pa; xx, yy, xy, in 3D also xz, yz");
 }
 
 void describe(Describer& d, Numerics& n) {
@@ -93,6 +104,9 @@ void describe(Describer& d, Scene& s) {
   for (std::size_t k = 0; k < s.bodies.size(); ++k) {
     d.section(fmt::format("bodies[{}]", k), "one body, filled with particles at set-up");
     describe(d, s.bodies[k]);
+    d.section(fmt::format("bodies[{}].profile", k),
+              "formulas of x, y, z, r (from its centre) and dx (spacing) in SI, in place of its uniform values");
+    describe(d, s.bodies[k].profile);
   }
   d.section("numerics", "how the equations are solved");
   describe(d, s.numerics);

@@ -33,9 +33,9 @@ double number_of(const Literal& literal, const std::string& unit) {
     if (unit != "1" && unit != "any" && value != 0)
       throw InputError(
           fmt::format("expected {}, got {} (the unit is missing)", expected_quantity(unit), to_text(literal)));
-    return value;
+    return value + 0.0;  // no negative zero: TOML has none to echo it with
   }
-  if (const auto* text = std::get_if<std::string>(&literal.value)) return parse_quantity(*text, unit);
+  if (const auto* text = std::get_if<std::string>(&literal.value)) return parse_quantity(*text, unit) + 0.0;
   refuse(expected_quantity(unit), literal);
 }
 

@@ -26,13 +26,22 @@ enum class DistensionSolver { safe_newton, bisection, newton };
 enum class Lattice { cubic, hexagonal };
 enum class OnError { continue_run, abort };
 
+/// Formulas that replace the uniform values of a body at the start (formula.hpp says of what). Empty: none.
+struct Profile {
+  std::vector<std::string> displacement;       ///< m; Dim components: particles leave their lattice places, masses stay
+  std::vector<std::string> velocity;           ///< m/s; Dim components
+  std::vector<std::string> deviatoric_stress;  ///< Pa; in the order of base/types.hpp
+  std::string density, pressure, specific_energy;  ///< kg/m^3, Pa (gas only), J/kg
+};
+
 /// One solid or gas body, filled with particles at set-up. Later bodies do not displace earlier ones.
 struct Body {
   std::string name;
   std::string material;              ///< name of inputs/materials/<material>.toml
   std::string shape = "sphere";      ///< sphere | box | cylinder (2D: disc | rectangle)
   Triple center{0, 0, 0};            ///< m
-  double radius = unset;             ///< m; sphere, cylinder
+  double radius = unset;             ///< m; sphere, disc, cylinder
+  double inner_radius = 0;           ///< m; of the hole in them
   Triple size{unset, unset, unset};  ///< m; box: full edge lengths
   double length = unset;             ///< m; cylinder
   Triple axis{0, 0, 1};              ///< cylinder axis
@@ -41,6 +50,8 @@ struct Body {
   double pressure = unset;           ///< Pa; gas bodies: sets the specific energy
   double specific_energy = 0;        ///< J/kg; used where pressure is not given
   double spacing_factor = 1;         ///< particle spacing relative to resolution.spacing
+  double jitter = 0;                 ///< random displacement along each axis, up to this many spacings
+  Profile profile;
 };
 
 struct Numerics {

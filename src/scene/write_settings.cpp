@@ -57,10 +57,12 @@ struct ToToml {
 
 std::string toml_of(const Setting& setting) { return std::visit(ToToml{setting}, setting.target); }
 
-/// "bodies[1]" is written [[bodies]].
+/// "bodies[1]" is written [[bodies]], and "bodies[1].profile" [bodies.profile]: it belongs to the body above it.
 std::string header(const std::string& section) {
-  if (section.ends_with(']')) return fmt::format("[[{}]]", section.substr(0, section.find('[')));
-  return fmt::format("[{}]", section);
+  const std::size_t open = section.find('['), close = section.find(']');
+  if (open == std::string::npos) return fmt::format("[{}]", section);
+  if (close + 1 == section.size()) return fmt::format("[[{}]]", section.substr(0, open));
+  return fmt::format("[{}{}]", section.substr(0, open), section.substr(close + 1));
 }
 
 /// What may be written: unit, range or words.

@@ -1,28 +1,18 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstring>
-#include <numeric>
 
 #include "base/errors.hpp"
 #include "base/parallel.hpp"
 #include "schemes/kernels.hpp"
 #include "schemes/pair_records.hpp"
-#include "simulation/shapes.hpp"
+#include "simulation/seedlings.hpp"
 #include "simulation/stages.hpp"
 #include "simulation/time_step.hpp"
 
 namespace ejecta {
 
 namespace {
-
-/// One particle before columns exist.
-template <int Dim>
-struct Seedling {
-  Vec<Dim> x;
-  double volume, spacing;
-  int body, material;
-};
 
 /// Material number of each body: its place in the list of materials by name.
 std::vector<int> number_materials(const Scene& scene, const std::vector<Material>& materials) {
@@ -35,50 +25,38 @@ std::vector<int> number_materials(const Scene& scene, const std::vector<Material
   return numbers;
 }
 
-/// All bodies filled, those of one material together. A point that already belongs to an earlier body is an error.
+/// Puts the formulas of the bodies in place of their uniform values.
 template <int Dim>
-std::vector<Seedling<Dim>> sow(const Scene& scene, const std::vector<int>& body_material, std::size_t materials) {
-  std::vector<std::string> problems;
-  std::vector<std::vector<Seedling<Dim>>> by_material(materials);
-  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-    const Body& body = scene.bodies[b];
-    const double spacing = scene.spacing * body.spacing_factor;
-    const PointCloud<Dim> cloud = fill<Dim>(body, spacing, scene.lattice);
-    if (cloud.points.empty())
-      problems.push_back(
-          fmt::format("{}: bodies.{}: expected room for at least one particle, got none at a spacing of "
-                      "{:.4g} m",
-                      scene.file, body.name, spacing));
-    std::size_t shared = 0;
-    for (const Vec<Dim>& x : cloud.points) {
-      for (std::size_t other = 0; other < b; ++other)
-        if (inside<Dim>(scene.bodies[other], x)) ++shared;
-      by_material[static_cast<std::size_t>(body_material[b])].push_back(
-          {x, cloud.volume, std::pow(cloud.volume, 1.0 / Dim), static_cast<int>(b), body_material[b]});
-    }
-    if (shared > 0)
-      problems.push_back(
-          fmt::format("{}: bodies.{}: expected a body clear of all earlier ones, got an overlap of {} "
-                      "particles",
-                      scene.file, body.name, shared));
+void apply_profiles(Simulation<Dim>& sim, const std::vector<Seedling<Dim>>& seedlings) {
+  Particles<Dim>& p = sim.particles;
+  for (std::size_t b = 0; b < sim.scene.bodies.size(); ++b) {
+    const Body& body = sim.scene.bodies[b];
+    const Profile& profile = body.profile;
+    const Material& material = sim.materials[static_cast<std::size_t>(sim.body_material[b])];
+    const auto evaluate = [&](const std::string& key, const std::string& text, auto&& store) {
+      if (text.empty()) return;
+      const Formula formula(text);
+      for (std::size_t i = 0; i < seedlings.size(); ++i) {
+        if (seedlings[i].body != static_cast<int>(b)) continue;
+        const FormulaPoint point = formula_point<Dim>(body, seedlings[i].x, seedlings[i].spacing);
+        const double value = formula(point);
+        if (!std::isfinite(value)) refuse_value(sim.scene, body, key, "a finite number", value, point);
+        store(i, value);
+      }
+    };
+    evaluate("specific_energy", profile.specific_energy,
+             [&](std::size_t i, double value) { p.column(Field::specific_energy)[i] = value; });
+    evaluate("pressure", profile.pressure, [&](std::size_t i, double value) {
+      p.column(Field::specific_energy)[i] = std::get<IdealGas>(material.eos).energy(p.column(Field::density)[i], value);
+    });
+    for (std::size_t a = 0; a < profile.velocity.size(); ++a)
+      evaluate("velocity", profile.velocity[a],
+               [&](std::size_t i, double value) { p.column(Field::velocity, static_cast<int>(a))[i] = value; });
+    for (std::size_t k = 0; k < profile.deviatoric_stress.size(); ++k)
+      evaluate("deviatoric_stress", profile.deviatoric_stress[k], [&](std::size_t i, double value) {
+        p.column(Field::deviatoric_stress, static_cast<int>(k))[i] = value;
+      });
   }
-  if (!problems.empty()) throw InputError(problems);
-  std::vector<Seedling<Dim>> all;
-  for (auto& group : by_material) all.insert(all.end(), group.begin(), group.end());
-  return all;
-}
-
-/// Identifies a particle by where it was made: positions quantised to 1/64 of the spacing, mixed (splitmix64).
-template <int Dim>
-std::uint64_t position_key(const Vec<Dim>& x, double spacing) {
-  std::uint64_t key = 0x9e3779b97f4a7c15ull;
-  for (int a = 0; a < Dim; ++a) {
-    key ^= static_cast<std::uint64_t>(std::llround(x[a] / spacing * 64));
-    key = (key ^ (key >> 30)) * 0xbf58476d1ce4e5b9ull;
-    key = (key ^ (key >> 27)) * 0x94d049bb133111ebull;
-    key ^= key >> 31;
-  }
-  return key;
 }
 
 double initial_energy(const Body& body, const Material& material, double density) {
@@ -104,14 +82,13 @@ void plant(Simulation<Dim>& sim, const std::vector<Seedling<Dim>>& seedlings) {
     const auto& s = seedlings[i];
     const Body& body = scene.bodies[static_cast<std::size_t>(s.body)];
     const Material& material = sim.materials[static_cast<std::size_t>(s.material)];
-    const double density = std::isnan(body.density) ? material.bulk_density() : body.density;
     p.set_vector(Field::position, i, s.x);
     for (int a = 0; a < Dim; ++a) p.column(Field::velocity, a)[i] = body.velocity[static_cast<std::size_t>(a)];
     // Single precision must hold the mass exactly: both sides of a pair then use the same two masses.
-    const double mass = density * s.volume;
+    const double mass = s.density * s.volume;
     p.column(Field::mass)[i] = scene.numerics.precision == Precision::mixed ? static_cast<float>(mass) : mass;
-    p.column(Field::density)[i] = density;
-    p.column(Field::specific_energy)[i] = initial_energy(body, material, density);
+    p.column(Field::density)[i] = s.density;
+    p.column(Field::specific_energy)[i] = initial_energy(body, material, s.density);
     p.column(Field::smoothing_length)[i] = scene.numerics.nodes_per_h * s.spacing;
     p.label(Label::id)[i] = static_cast<std::int32_t>(i);
     p.label(Label::body)[i] = s.body;
@@ -122,7 +99,7 @@ void plant(Simulation<Dim>& sim, const std::vector<Seedling<Dim>>& seedlings) {
     if (p.has(Field::stress_factor)) p.column(Field::stress_factor)[i] = 1;
     if (p.has(Field::flaw_count) && material.damage) {
       const Flaws flaws = draw_flaws(*material.damage, s.volume, per_body[static_cast<std::size_t>(s.body)], scene.seed,
-                                     position_key<Dim>(s.x, s.spacing));
+                                     position_key<Dim>(s.site, s.spacing));
       p.column(Field::flaw_strain)[i] = flaws.strain;
       p.column(Field::flaw_exponent)[i] = flaws.exponent;
       p.column(Field::flaw_count)[i] = flaws.count;
@@ -140,9 +117,10 @@ std::unique_ptr<Simulation<Dim>> set_up(const Scene& scene, const std::vector<Ma
   sim->materials = materials;
   sim->body_material = number_materials(scene, materials);
   sim->stages = choose_stages<Dim>(scene, materials);
-  const auto seedlings = sow<Dim>(scene, sim->body_material, materials.size());
+  const auto seedlings = sow<Dim>(scene, materials, sim->body_material);
   sim->particles.allocate(seedlings.size(), fields_of(sim->stages));
   plant(*sim, seedlings);
+  apply_profiles(*sim, seedlings);
 
   const Numerics& numerics = scene.numerics;
   PairPassSettings settings;

@@ -54,6 +54,9 @@ Cell<Dim> lattice_cell(Lattice lattice, double spacing) {
 template <int Dim>
 bool inside(const Body& body, const Vec<Dim>& x) {
   const Vec<Dim> d = x - first_components<Dim>(body.center);
+  const auto in_ring = [&](double distance2) {
+    return distance2 <= body.radius * body.radius && distance2 >= body.inner_radius * body.inner_radius;
+  };
   if (is_box(body)) {
     const Vec<Dim> half = half_extent<Dim>(body);
     return (d.array().abs() <= half.array() * (1 + 1e-12)).all();
@@ -61,9 +64,9 @@ bool inside(const Body& body, const Vec<Dim>& x) {
   if (is_cylinder(body)) {
     const Vec<Dim> axis = first_components<Dim>(body.axis).normalized();
     const double along = d.dot(axis);
-    return std::abs(along) <= 0.5 * body.length && (d - along * axis).squaredNorm() <= body.radius * body.radius;
+    return std::abs(along) <= 0.5 * body.length && in_ring((d - along * axis).squaredNorm());
   }
-  return d.squaredNorm() <= body.radius * body.radius;
+  return in_ring(d.squaredNorm());
 }
 
 template <int Dim>
@@ -107,11 +110,12 @@ PointCloud<Dim> fill(const Body& body, double spacing, Lattice lattice) {
 }
 
 double volume(const Body& body, int dim) {
-  const double pi = std::numbers::pi, r = body.radius;
+  const double pi = std::numbers::pi, r = body.radius, hole = body.inner_radius;
   if (is_box(body)) return body.size[0] * body.size[1] * (dim == 3 ? body.size[2] : 1);
-  if (dim == 2) return pi * r * r;
-  if (is_cylinder(body)) return pi * r * r * body.length;
-  return 4 * pi / 3 * r * r * r;
+  const double area = pi * (r * r - hole * hole);
+  if (dim == 2) return area;
+  if (is_cylinder(body)) return area * body.length;
+  return 4 * pi / 3 * (r * r * r - hole * hole * hole);
 }
 
 template PointCloud<2> fill<2>(const Body&, double, Lattice);

@@ -1,0 +1,52 @@
+#include "scene/formula.hpp"
+
+#include <fmt/format.h>
+#include <muParser.h>
+
+#include <cmath>
+#include <limits>
+
+#include "base/errors.hpp"
+
+namespace ejecta {
+
+struct Formula::Variables {
+  double x = 0, y = 0, z = 0, r = 0, dx = 0;
+};
+
+namespace {
+double hypotenuse(double a, double b) { return std::hypot(a, b); }
+}  // namespace
+
+Formula::Formula(const std::string& text)
+    : variables_(std::make_unique<Variables>()), parser_(std::make_unique<mu::Parser>()) {
+  try {
+    parser_->DefineVar("x", &variables_->x);
+    parser_->DefineVar("y", &variables_->y);
+    parser_->DefineVar("z", &variables_->z);
+    parser_->DefineVar("r", &variables_->r);
+    parser_->DefineVar("dx", &variables_->dx);
+    parser_->DefineFun("hypot", hypotenuse);
+    parser_->SetExpr(text);
+    parser_->Eval();  // compiles; the value at the origin does not matter
+  } catch (const mu::ParserError& error) {
+    throw InputError(fmt::format("expected a formula of x, y, z, r and dx, got \"{}\": {}", text, error.GetMsg()));
+  }
+  if (parser_->GetNumResults() != 1)
+    throw InputError(fmt::format("expected one formula, got {} in \"{}\"", parser_->GetNumResults(), text));
+}
+
+Formula::Formula(Formula&&) noexcept = default;
+Formula& Formula::operator=(Formula&&) noexcept = default;
+Formula::~Formula() = default;
+
+double Formula::operator()(const FormulaPoint& point) const {
+  *variables_ = {point.x[0], point.x[1], point.x[2], point.r, point.spacing};
+  try {
+    return parser_->Eval();
+  } catch (const mu::ParserError&) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+}  // namespace ejecta

@@ -1,0 +1,66 @@
+"""What a verification case is."""
+import importlib
+import inspect
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+
+
+@dataclass(frozen=True)
+class Bound:
+    """What is asked of one error: limits at resolutions {100: 0.0065}, and the least order over the ladder."""
+    quantity: str
+    norm: str
+    limits: dict
+    order: float | None = None
+    why: str = ""  # where the limits come from; why no order is asked, if none is
+
+
+class Case:
+    """One problem with a known answer. Subclasses set the attributes and define settings() and errors()."""
+    name: str               # unique, lower case
+    title: str              # one line
+    exact: str              # the exact solution and its source
+    scene = "scene.toml"    # beside case.py
+    quick: tuple = ()       # resolutions of an ordinary test run: seconds
+    full: tuple = ()        # resolutions of the long test and of the report
+    bounds: tuple = ()      # of Bound
+    energy = 1e-12          # largest relative drift of total energy during any run
+    momentum = 1e-12        # the same of linear momentum, along axes without walls
+    # Small run for the invariances: settings on top of those of the coarsest resolution, and what applies.
+    small = {"time.max_steps": 40}
+    tolerance = 1e-10       # of rotated and boosted runs, relative to the largest value of each field
+    rotation = True         # turned by 90 degrees about z; or a text: why that makes no sense
+    boost = ""              # axis ("x", "y", "z") of the boost; or a text: why that makes no sense
+    boost_speed = 1.0       # m/s, of the order of the speeds in the problem
+    mixed_margin = 0.05     # mixed precision may change each error by this fraction of it; or a text: why not
+    mixed_drift = 1e-7      # largest relative drift of energy and momentum in mixed precision
+
+    def settings(self, resolution):
+        """Settings of the scene for this resolution, as for --set."""
+        raise NotImplementedError
+
+    def errors(self, run, resolution):
+        """{(quantity, norm): error} of a finished run."""
+        raise NotImplementedError
+
+    def check_exact(self):
+        """Asserts that the exact solution itself gives the numbers that are printed elsewhere."""
+
+    @property
+    def scene_file(self):
+        return Path(inspect.getfile(type(self))).parent / self.scene
+
+    @property
+    def folder(self):
+        return Path(inspect.getfile(type(self))).parent.name
+
+
+def load_cases(word=None):
+    """All cases, or those of a folder or a name."""
+    folders = sorted(file.parent.name for file in ROOT.glob("*/case.py"))
+    if word in folders:
+        folders, word = [word], None
+    cases = [case for folder in folders for case in importlib.import_module(f"{folder}.case").CASES]
+    return [case for case in cases if word in (None, case.name)]

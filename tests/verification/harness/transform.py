@@ -1,0 +1,88 @@
+"""The same problem seen from elsewhere: scenes turned by 90 degrees about z, (x, y) -> (-y, x), or in motion."""
+import copy
+import json
+import re
+
+
+def minus(value):
+    """-value of a number, of a text with a unit ("3 m") or of the text of a formula."""
+    if isinstance(value, (int, float)):
+        return -value
+    number, _, unit = value.partition(" ")
+    try:
+        return f"{-float(number)!r} {unit}".strip()
+    except ValueError:
+        return f"-({value})"
+
+
+def turned(scene):
+    """A scene (as a dictionary) turned by 90 degrees."""
+    scene = copy.deepcopy(scene)
+    for body in scene["bodies"]:
+        for key in ("center", "axis", "velocity"):
+            if key in body:
+                x, y, *z = body[key]
+                body[key] = [minus(y), x, *z]
+        if "size" in body:
+            x, y, *z = body["size"]
+            body["size"] = [y, x, *z]
+        if "profile" in body:
+            body["profile"] = turned_profile(body["profile"])
+    boundary = scene["boundary"]
+    boundary["x"], boundary["y"] = boundary["y"], boundary["x"]
+    if "min" in boundary:
+        (x0, y0, *z0), (x1, y1, *z1) = boundary["min"], boundary["max"]
+        boundary["min"], boundary["max"] = [minus(y1), x0, *z0], [minus(y0), x1, *z1]
+    return scene
+
+
+def turned_profile(profile):
+    """Formulas of the old x and y, which are y and -x now."""
+    def seen(formula):
+        return re.sub(r"\b[xy]\b", lambda found: {"x": "(y)", "y": "(-x)"}[found[0]], str(formula))
+
+    result = {}
+    for key, value in profile.items():
+        if isinstance(value, list):
+            value = [seen(v) for v in value]
+            if key == "deviatoric_stress":
+                xx, yy, xy, *out = value  # out of the plane: xz, yz
+                value = [yy, xx, minus(xy), *([minus(out[1]), out[0]] if out else [])]
+            else:
+                value = [minus(value[1]), value[0], *value[2:]]
+        else:
+            value = seen(value)
+        result[key] = value
+    return result
+
+
+def boosted(scene, axis, speed):
+    """A scene with a speed [m/s] added along an axis."""
+    scene = copy.deepcopy(scene)
+    k = "xyz".index(axis)
+    for body in scene["bodies"]:
+        velocity = list(body.get("velocity", ["0 m/s"] * 3))
+        velocity[k] = f"{float(velocity[k].split()[0]) + speed!r} m/s"
+        body["velocity"] = velocity
+        if "velocity" in body.get("profile", {}):
+            body["profile"]["velocity"][k] = f"({body['profile']['velocity'][k]}) + {speed!r}"
+    return scene
+
+
+def toml(scene):
+    """TOML text of a dictionary of tables, lists of tables (bodies) and values."""
+    def table(path, content):
+        plain = {k: v for k, v in content.items() if not is_table(v)}
+        text = "".join(f"{k} = {json.dumps(v)}\n" for k, v in plain.items())
+        for key, value in content.items():
+            name = f"{path}.{key}" if path else key
+            if isinstance(value, dict):
+                text += f"\n[{name}]\n" + table(name, value)
+            elif is_table(value):
+                text += "".join(f"\n[[{name}]]\n" + table(name, v) for v in value)
+        return text
+
+    def is_table(value):
+        return isinstance(value, dict) or isinstance(value, list) and any(isinstance(v, dict) for v in value)
+
+    return table("", scene)

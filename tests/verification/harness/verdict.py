@@ -1,0 +1,64 @@
+"""Runs a case, prints what was measured, and says what is not as it must be."""
+import math
+import tempfile
+from pathlib import Path
+
+from .invariance import check_invariances
+from .ladder import measure
+from .norms import order
+
+
+def verify(case, resolutions, settings=None, threads=1, invariances=True, keep=None):
+    """Returns (measurements, complaints); no complaints: the case has passed."""
+    print(f"\n{case.name}: {case.title}\nexact solution: {case.exact}")
+    case.check_exact()
+    with tempfile.TemporaryDirectory(prefix=f"ejecta_{case.name}_") as temporary:
+        workspace = Path(keep or temporary)
+        measurements = [measure(case, r, workspace, settings, threads, bool(keep)) for r in resolutions]
+        complaints = judge_errors(case, measurements) + judge_conservation(case, measurements)
+        if invariances:
+            complaints += check_invariances(case, resolutions[0], measurements[0], workspace, settings)
+    print("\n".join(f"FAILED {case.name}: {c}" for c in complaints) or f"passed {case.name}", flush=True)
+    return measurements, complaints
+
+
+def judge_errors(case, measurements):
+    resolutions = [m.resolution for m in measurements]
+    bounds = {(b.quantity, b.norm): b for b in case.bounds}
+    keys = list(measurements[0].errors)
+    complaints = [f"there is no bound on {' '.join(key)}" for key in keys if key not in bounds]
+    complaints += [f"nothing measures {' '.join(key)}" for key in bounds if key not in keys]
+    width = max(len(" ".join(key)) for key in keys)
+    print(f"{'error at':{width}} " + " ".join(f"{r:>11}" for r in resolutions) + "  order (bound)")
+    for key in keys:
+        errors, bound = [m.errors[key] for m in measurements], bounds.get(key)
+        measured = order(resolutions, errors)
+        print(f"{' '.join(key):{width}} " + " ".join(f"{e:11.4g}" for e in errors) + f"  {measured:5.2f}", end="")
+        if bound is None:
+            print()
+            continue
+        print(f" ({'none' if bound.order is None else bound.order})  limits " +
+              ", ".join(f"{limit:.4g} at {r}" for r, limit in bound.limits.items()))
+        applied = [(r, e, bound.limits[r]) for r, e in zip(resolutions, errors) if r in bound.limits]
+        if not applied:
+            complaints.append(f"no limit on {' '.join(key)} applies to any of the resolutions {resolutions}")
+        complaints += [f"{' '.join(key)} at {r}: {e:.5g}, the limit is {limit:.5g}" for r, e, limit in applied
+                       if not e <= limit]
+        if bound.order is not None and len(resolutions) > 1 and not measured >= bound.order:
+            complaints.append(f"{' '.join(key)}: order {measured:.2f}, the least is {bound.order}")
+    cost = " ".join(f"{m.core_seconds:11.2f}" for m in measurements)
+    print(f"{'core-seconds':{width}} {cost}")
+    return complaints
+
+
+def judge_conservation(case, measurements):
+    complaints = []
+    for name, limit in (("energy", case.energy), ("momentum", case.momentum), ("mass", 0.0)):
+        worst = max((getattr(m, f"{name}_drift") for m in measurements), key=lambda d: -1 if math.isnan(d) else d)
+        if name == "momentum" and math.isnan(worst):
+            print("momentum: walls on every axis")
+            continue
+        print(f"{name}: largest relative drift {worst:.2g}, limit {limit:.2g}")
+        if not worst <= limit:
+            complaints.append(f"{name} drifts by {worst:.3g}, the limit is {limit:.3g}")
+    return complaints

@@ -1,0 +1,59 @@
+"""Sod's shock tube: a rarefaction, a contact and a shock. A solution with jumps: first order in L1 is all there is."""
+import numpy as np
+
+from exact.riemann import Gas, ShockTube
+from harness import Bound, Case, l1
+
+
+class Sod(Case):
+    """Resolution: particles in the 0.5 m of dense gas. The strip stays a whole number of rows high: 17 and 6."""
+    name = "sod"
+    title = "Sod's shock tube, gamma 1.4, (1, 0, 1) | (0.125, 0, 0.1), t = 0.2 s"
+    exact = "Riemann problem (Toro 2009, ch. 4)"
+    scene = "../../../inputs/sod.toml"
+    quick = (50, 100, 200)
+    full = (50, 100, 200, 400, 800)
+    tube = ShockTube(Gas(1, 0, 1), Gas(0.125, 0, 0.1), 1.4)
+    printed = 0.3031302, 0.9274526, 0.4263194, 0.2655737, 1.7521557  # p*, u*, densities beside the contact, shock speed
+    rows, half_length, half_width = 17, 0.51, 0.5  # in spacings; of the box; of the part without effects of the ends
+    boost = "y"
+    bounds = (
+        Bound("density", "L1", {100: 0.0065, 400: 0.0018}, 0.8),
+        Bound("velocity", "L1", {100: 0.02, 400: 0.005}, 0.8),
+        Bound("pressure", "L1", {100: 0.007, 400: 0.0019}, 0.8),
+    )
+
+    def settings(self, resolution):
+        spacing = 0.5 / resolution
+        height, x = self.rows * spacing, self.half_length
+        return {"resolution.spacing": (spacing, "m"),
+                "bodies.left.size": (x, height, "m"), "bodies.right.size": (x, height, "m"),
+                "boundary.min": (-x, -height / 2, "m"), "boundary.max": (x, height / 2, "m")}
+
+    def errors(self, run, resolution):
+        """Volume-weighted, over the part that knows nothing of the ends of the tube."""
+        state = run.final
+        x = state["position"][:, 0]
+        inner = np.abs(x) < self.half_width
+        exact = self.tube.at(x[inner] / state.time)
+        values = state["density"], state["velocity"][:, 0], state["pressure"]
+        return {(name, "L1"): l1(value[inner], truth, state.volume[inner])
+                for name, value, truth in zip(("density", "velocity", "pressure"), values, exact)}
+
+    def check_exact(self):
+        left, right = self.tube.behind(self.tube.left), self.tube.behind(self.tube.right)
+        found = self.tube.pressure, self.tube.velocity, left.density, right.density, self.tube.shock_speed()
+        assert np.allclose(found, self.printed, atol=1e-7, rtol=0), found
+
+
+class SodGamma53(Sod):
+    """Resolution: particles in the 0.5 m of dense gas."""
+    name = "sod_gamma_53"
+    title = "shock tube, gamma 5/3, (1, 0, 1) | (0.25, 0, 0.1795), t = 0.15 s"
+    scene = "gamma_53.toml"
+    tube = ShockTube(Gas(1, 0, 1), Gas(0.25, 0, 0.1795), 5 / 3)
+    printed = 0.4217348, 0.6142148, 0.5956946, 0.4094021, 1.5775252
+    rows, half_length = 16, 0.5
+
+
+CASES = [Sod(), SodGamma53()]
