@@ -4,6 +4,7 @@
 #include "app/options.hpp"
 #include "app/resources.hpp"
 #include "base/parallel.hpp"
+#include "commit.hpp"
 #include "material/material_reader.hpp"
 #include "render/movie.hpp"
 #include "scene/scene_reader.hpp"

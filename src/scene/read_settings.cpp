@@ -33,7 +33,7 @@ double number_of(const Literal& literal, const std::string& unit) {
     if (unit != "1" && unit != "any" && value != 0)
       throw InputError(
           fmt::format("expected {}, got {} (the unit is missing)", expected_quantity(unit), to_text(literal)));
-    return value + 0.0;  // no negative zero: TOML has none to echo it with
+    return value + 0.0;  // no negative zero: echoed as -0, it would come back as the whole number 0
   }
   if (const auto* text = std::get_if<std::string>(&literal.value)) return parse_quantity(*text, unit) + 0.0;
   refuse(expected_quantity(unit), literal);

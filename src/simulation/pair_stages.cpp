@@ -23,9 +23,9 @@ double curl(const Mat<Dim>& L) {
   if constexpr (Dim == 3) return Vec<3>(L(2, 1) - L(1, 2), L(0, 2) - L(2, 0), L(1, 0) - L(0, 1)).norm();
 }
 
-/// Bounds on h relative to what a particle has in its undeformed material: solids must not reach out for neighbours
-/// that have flown away; a gas may follow its expansion.
-constexpr double least_relative_h = 0.25, gas_growth = 20;
+/// Bounds on h relative to that of the body's lattice: solids must not reach out for neighbours that have flown away; a
+/// gas may follow its expansion, and compression by 8000 in 3D.
+constexpr double least_relative_h = 0.25, gas_range = 20;
 
 }  // namespace
 
@@ -35,14 +35,13 @@ void smoothing_lengths(Simulation<Dim>& sim) {
   for (std::size_t m = 0; m < sim.materials.size(); ++m) {
     const Material& material = sim.materials[m];
     const Range range = p.material_ranges()[m];
-    const double most_relative_h = material.solid() ? sim.scene.numerics.smoothing_growth : gas_growth;
-    const double density0 = material.bulk_density();
+    const double least = material.solid() ? least_relative_h : 1 / gas_range;
+    const double most = material.solid() ? sim.scene.numerics.smoothing_growth : gas_range;
     parallel_for(range.begin, range.end, [&](std::size_t i) {
-      const double cell = p.column(Field::mass)[i] / density0;
-      const double h0 = sim.scene.numerics.nodes_per_h * (Dim == 2 ? std::sqrt(cell) : std::cbrt(cell));
+      const Body& body = sim.scene.bodies[static_cast<std::size_t>(p.label(Label::body)[i])];
+      const double h0 = sim.scene.numerics.nodes_per_h * sim.scene.spacing * body.spacing_factor;
       double& h = p.column(Field::smoothing_length)[i];
-      h = std::clamp(h * sim.support->growth(p.column(Field::neighbour_sum)[i]), least_relative_h * h0,
-                     most_relative_h * h0);
+      h = std::clamp(h * sim.support->growth(p.column(Field::neighbour_sum)[i]), least * h0, most * h0);
     });
   }
 }

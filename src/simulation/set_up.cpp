@@ -98,8 +98,9 @@ void plant(Simulation<Dim>& sim, const std::vector<Seedling<Dim>>& seedlings) {
     if (p.has(Field::shear_switch)) p.column(Field::shear_switch)[i] = 1;
     if (p.has(Field::stress_factor)) p.column(Field::stress_factor)[i] = 1;
     if (p.has(Field::flaw_count) && material.damage) {
-      const Flaws flaws = draw_flaws(*material.damage, s.volume, per_body[static_cast<std::size_t>(s.body)], scene.seed,
-                                     position_key<Dim>(s.site, s.spacing));
+      const double solid_volume = s.density * s.volume / reference_density(material.eos);
+      const Flaws flaws = draw_flaws(*material.damage, solid_volume, per_body[static_cast<std::size_t>(s.body)],
+                                     scene.seed, position_key<Dim>(s.site, s.spacing));
       p.column(Field::flaw_strain)[i] = flaws.strain;
       p.column(Field::flaw_exponent)[i] = flaws.exponent;
       p.column(Field::flaw_count)[i] = flaws.count;
