@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cmath>
 
 #include "material/eos_point.hpp"
@@ -13,9 +14,9 @@ namespace ejecta {
 /// P is continuous everywhere; its derivatives jump at eta = 1 (for e > E_iv), at E_iv and at E_cv.
 ///
 /// Two limits keep every density above zero and every energy usable:
-/// - B mu^2 is kept in expansion, but never beyond mu = -A/B. Further out A mu + B mu^2 is positive and cold matter
-/// would
-///   repel itself the more the thinner it is; the cold pressure is zero there instead.
+/// - The cold pressure A mu + B mu^2 goes to zero with the density only if A = B. In expansion, max(A, B) takes the place
+///   of B: for B < A a tension of A - B would be left at zero density. For B > A cold matter would repel itself beyond
+///   mu = -A/B, the more the thinner it is; the cold pressure is zero there instead.
 /// - e < 0, a small numerical undershoot, leaves w at 1 (w would pass through zero in strong expansion).
 struct Tillotson {
   double rho0;         ///< reference density [kg/m^3]
@@ -49,9 +50,10 @@ struct Tillotson {
     const EosPoint t = thermal(rho, e);
     EosPoint point{t.pressure + a * rho * e, t.dP_drho + a * e, t.dP_de + a * rho};
     const double mu = (rho - rho0) * (1 / rho0);  // exactly zero at rho0; 1/rho0 leaves the loops of the callers
-    if (A + B * mu > 0) {
-      point.pressure += mu * (A + B * mu);
-      point.dP_drho += (A + 2 * B * mu) * (1 / rho0);
+    const double quadratic = mu < 0 ? std::max(A, B) : B;
+    if (A + quadratic * mu > 0) {
+      point.pressure += mu * (A + quadratic * mu);
+      point.dP_drho += (A + 2 * quadratic * mu) * (1 / rho0);
     }
     return point;
   }

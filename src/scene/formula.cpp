@@ -16,10 +16,18 @@ struct Formula::Variables {
 
 namespace {
 double hypotenuse(double a, double b) { return std::hypot(a, b); }
+
+/// muParser takes a single = for an assignment, where people mean a comparison.
+bool assigns(std::string text) {
+  for (const char* comparison : {"==", "<=", ">=", "!="})
+    for (std::size_t at; (at = text.find(comparison)) != std::string::npos;) text.erase(at, 2);
+  return text.find('=') != std::string::npos;
+}
 }  // namespace
 
 Formula::Formula(const std::string& text)
     : variables_(std::make_unique<Variables>()), parser_(std::make_unique<mu::Parser>()) {
+  if (assigns(text)) throw InputError(fmt::format("expected a formula, got \"{}\": to compare write ==", text));
   try {
     parser_->DefineVar("x", &variables_->x);
     parser_->DefineVar("y", &variables_->y);

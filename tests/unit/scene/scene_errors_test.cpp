@@ -32,6 +32,15 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         BadScene{"unknown_key", "", "[numerics]\nkernal = 1\n",
                  "s.toml:18: numerics.kernal: unknown key, did you mean numerics.kernel?"},
+        BadScene{"hole_too_wide", "radius = \"3 cm\"", "radius = \"3 cm\"\ninner_radius = \"3 cm\"",
+                 "s.toml:11: bodies[0].inner_radius: expected less than the radius 30 mm, got 30 mm"},
+        BadScene{"formula", "", "[bodies.profile]\nspecific_energy = \"2*q\"\n",
+                 "s.toml:18: bodies[1].profile.specific_energy: expected a formula of x, y, z, r and dx, got \"2*q\": "
+                 "Unexpected token \"q\" found at position 2."},
+        BadScene{"too_few_formulas", "", "[bodies.profile]\nvelocity = [\"x\", \"y\"]\n",
+                 "s.toml:18: bodies[1].profile.velocity: expected 3 formulas in 3D, got 2"},
+        BadScene{"profile_gives_two_energies", "", "[bodies.profile]\npressure = \"1\"\nspecific_energy = \"1\"\n",
+                 "s.toml:18: bodies[1].profile.pressure: expected either pressure or specific_energy, got both"},
         BadScene{"unknown_key_far", "", "[numerics]\nabcdefgh = 1\n", "s.toml:18: numerics.abcdefgh: unknown key"},
         BadScene{"key_of_another_section", "", "[numerics]\nthreads = 1\n",
                  "s.toml:18: numerics.threads: unknown key, did you mean run.threads?"},

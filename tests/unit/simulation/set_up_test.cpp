@@ -89,6 +89,94 @@ TEST(SetUp, AUniformGasIsInEquilibrium) {
   }
 }
 
+TEST(SetUp, FormulasReplaceUniformValues) {
+  const auto sim = start<2>(gas_tube, {R"s(bodies.left.profile.velocity=["3*x", "-hypot(x, y)"])s",
+                                       "bodies.left.profile.density=2 + x", "bodies.left.profile.pressure=r + dx"});
+  const auto& p = sim->particles;
+  double left = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const Vec<2> x = p.vector(Field::position, i), v = p.vector(Field::velocity, i);
+    if (p.label(Label::body)[i] != 0) {
+      EXPECT_EQ(v, Vec<2>(0, 0));
+      continue;
+    }
+    left += 1;
+    EXPECT_DOUBLE_EQ(v[0], 3 * x[0]);
+    EXPECT_DOUBLE_EQ(v[1], -x.norm());
+    const double density = 2 + x[0], r = (x - Vec<2>(-0.5, 0)).norm();
+    EXPECT_NEAR(p.column(Field::mass)[i], density * 0.025 * 0.025, 1e-15);
+    EXPECT_NEAR(p.column(Field::specific_energy)[i], (r + 0.025) / (0.4 * density), 1e-12);
+  }
+  EXPECT_EQ(left, 320);
+}
+
+TEST(SetUp, AFormulaWithoutAValueIsAnInputErrorThatNamesThePlace) {
+  try {
+    start<2>(gas_tube, {R"s(bodies.left.profile.velocity=["sqrt(x + 0.5)", "0"])s"});
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("bodies.left.profile.velocity: expected a finite number, got"), std::string::npos) << text;
+  }
+  EXPECT_THROW(start<2>(gas_tube, {"bodies.left.profile.density=x"}), InputError);  // negative on the left
+}
+
+TEST(SetUp, DisplacementAndJitterMoveParticlesAndKeepTheirMass) {
+  const auto still = start<2>(gas_tube);
+  const auto moved = start<2>(gas_tube, {R"s(bodies.left.profile.displacement=["0.01*y", "0"])s"});
+  const auto shaken = start<2>(gas_tube, {"bodies.left.jitter=0.2"});
+  const auto reseeded = start<2>(gas_tube, {"bodies.left.jitter=0.2", "random.seed=2"});
+  const auto x = by_id(still->particles, Field::position, 0), y = by_id(still->particles, Field::position, 1);
+  const auto moved_x = by_id(moved->particles, Field::position, 0),
+             shaken_x = by_id(shaken->particles, Field::position, 0);
+  EXPECT_EQ(by_id(still->particles, Field::mass), by_id(shaken->particles, Field::mass));
+  EXPECT_NE(shaken_x, by_id(reseeded->particles, Field::position, 0));
+  double widest = 0, sum = 0;
+  for (std::size_t i = 0; i < 320; ++i) {
+    EXPECT_DOUBLE_EQ(moved_x[i], x[i] + 0.01 * y[i]);
+    widest = std::max(widest, std::abs(shaken_x[i] - x[i]) / 0.025);
+    sum += (shaken_x[i] - x[i]) / 0.025;
+  }
+  EXPECT_LE(widest, 0.2 * (1 + 1e-9));
+  EXPECT_GT(widest, 0.19);
+  EXPECT_LT(std::abs(sum / 320), 0.03);  // 4 standard errors of a uniform number
+}
+
+TEST(SetUp, BodiesEndAtTheWalls) {
+  constexpr auto corner = R"([scene]
+name = "corner"
+dimension = 2
+[resolution]
+spacing = "10 mm"
+[time]
+end = "1 s"
+[[bodies]]
+name = "gas"
+material = "air"
+shape = "disc"
+radius = "1 m"
+inner_radius = "0.5 m"
+[numerics]
+density = "summation"
+[boundary]
+x = "reflecting"
+y = "reflecting"
+min = [0, 0]
+max = ["2 m", "2 m"]
+)";
+  const auto quarter = start<2>(corner);
+  const auto& p = quarter->particles;
+  for (std::size_t i = 0; i < p.size(); ++i) EXPECT_GT(p.vector(Field::position, i).minCoeff(), 0);
+  EXPECT_NEAR(totals(p).mass, 1.204 * std::numbers::pi / 4 * 0.75, 1e-12);
+}
+
+TEST(SetUp, FlawsAreThoseOfTheSolidVolume) {
+  // Three times the pores: the same flaws, at strains lower by the factor in solid volume to the power 1/m.
+  const auto dense = flaws_by_position(*start<3>(porous_impact, {"materials.pumice.porosity.initial_distension=2"}));
+  const auto light = flaws_by_position(*start<3>(porous_impact, {"materials.pumice.porosity.initial_distension=4"}));
+  for (const auto& [x, flaw] : dense) EXPECT_NEAR(light.at(x)[0] / flaw[0], std::pow(2, 1 / 9.5), 1e-9);
+}
+
 TEST(SetUp, OverlappingBodiesAreAnInputError) {
   try {
     start<3>(porous_impact, {"bodies[1].center=[0, 0, \"30 mm\"]"});

@@ -143,5 +143,20 @@ TEST(Shapes, CubicLatticesHaveSixNeighboursAtTheSpacing) {
   EXPECT_EQ(count, 6);
 }
 
+TEST(Shapes, AHoleIsLeftOut) {
+  Body shell = sphere(1), ring = disc(1), tube = cylinder(1, 3, {0, 0, 1});
+  for (Body* body : {&shell, &ring, &tube}) body->inner_radius = 0.6;
+  EXPECT_DOUBLE_EQ(volume(shell, 3), 4 * pi / 3 * (1 - 0.216));
+  EXPECT_DOUBLE_EQ(volume(ring, 2), pi * (1 - 0.36));
+  EXPECT_DOUBLE_EQ(volume(tube, 3), 3 * pi * (1 - 0.36));
+  EXPECT_FALSE(inside<3>(shell, Vec<3>(1, 2, 3.5)));
+  EXPECT_TRUE(inside<3>(shell, Vec<3>(1, 2, 3.7)));
+  EXPECT_FALSE(inside<3>(tube, Vec<3>(1.5, 2, 4)));
+  EXPECT_TRUE(inside<3>(tube, Vec<3>(1.7, 2, 4)));
+  const auto cloud = fill<2>(ring, 0.05, Lattice::cubic);
+  EXPECT_NEAR(filled(cloud), volume(ring, 2), 1e-12);
+  for (const auto& x : cloud.points) EXPECT_GT((x - Vec<2>(1, 2)).norm(), 0.58);
+}
+
 }  // namespace
 }  // namespace ejecta
