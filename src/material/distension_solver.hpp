@@ -94,7 +94,8 @@ DistensionResult search_from_above(Problem<EosT>& problem) {
 template <class EosT>
 DistensionResult safe_newton(Problem<EosT>& problem, Trial t) {
   constexpr int max_steps = 60;
-  constexpr double close_enough = 1e-4;  // of the range: the curve is as good as straight, so its tangent serves as well
+  constexpr double close_enough =
+      1e-4;  // of the range: the curve is as good as straight, so its tangent serves as well
   double low = 1, high = problem.alpha_old;
   bool low_known = false;
   for (int step = 0; step < max_steps; ++step) {

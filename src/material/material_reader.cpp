@@ -15,7 +15,8 @@ namespace ejecta {
 
 namespace {
 
-Document find_material(const std::string& name, const std::vector<std::string>& folders, const Document& overrides) {
+Document find_material(const std::string& name, const std::vector<std::string>& folders, const Document& overrides,
+                       const std::string& asked_by) {
   std::string searched;
   for (const std::string& folder : folders) {
     const std::filesystem::path path = std::filesystem::path(folder) / (name + ".toml");
@@ -23,7 +24,7 @@ Document find_material(const std::string& name, const std::vector<std::string>& 
     searched += (searched.empty() ? "" : " and ") + path.string();
   }
   if (!overrides.items.contains("eos.model"))
-    throw InputError(fmt::format("material \"{}\": no such file: searched {}", name, searched));
+    throw InputError(fmt::format("{}material \"{}\": no such file: searched {}", asked_by, name, searched));
   Document empty;
   empty.file = overrides.file;
   return empty;
@@ -60,7 +61,7 @@ void check_use(const Scene& scene, const std::vector<Material>& materials, std::
     if (found == materials.end()) continue;
     const bool gas = std::holds_alternative<IdealGas>(found->eos);
     const auto report = [&](const std::string& message) {
-      problems.push_back(fmt::format("{}: bodies.{}: {}", scene.file, body.name, message));
+      problems.push_back(fmt::format("{}: bodies.{}: {}", body.origin, body.name, message));
     };
     if (scene.numerics.density == DensityMethod::summation && !gas)
       report(fmt::format(
@@ -88,8 +89,8 @@ std::size_t Materials::index(std::string_view name) const {
 }
 
 Material read_material(const std::string& name, const std::vector<std::string>& folders, const Document& overrides,
-                       std::string* toml) {
-  Document document = find_material(name, folders, overrides);
+                       std::string* toml, const std::string& asked_by) {
+  Document document = find_material(name, folders, overrides, asked_by);
   merge(document, overrides);
   Problems problems;
   MaterialSettings settings;
@@ -114,8 +115,8 @@ Materials read_materials(const Scene& scene, const std::string& library) {
     std::string toml;
     try {
       materials.list.push_back(read_material(body.material, {beside.string(), library},
-                                             overrides == scene.materials.end() ? Document{} : overrides->second,
-                                             &toml));
+                                             overrides == scene.materials.end() ? Document{} : overrides->second, &toml,
+                                             fmt::format("{}: bodies.{}: ", body.origin, body.name)));
       materials.toml += toml;
     } catch (const InputError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());

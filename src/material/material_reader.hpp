@@ -21,9 +21,9 @@ struct Materials {
 /// Reads <name>.toml from the first folder that has it. Values of `overrides` (paths such as "eos.A") replace those of
 /// the file; a section that names another model replaces the whole section. No file is needed if they name the eos
 /// model. Throws InputError with everything that is wrong. `toml`, if given, receives the constants as sections of a
-/// scene.
+/// scene. `asked_by` begins the message about a missing file.
 Material read_material(const std::string& name, const std::vector<std::string>& folders, const Document& overrides = {},
-                       std::string* toml = nullptr);
+                       std::string* toml = nullptr, const std::string& asked_by = "");
 
 /// All materials of a scene: from the folder materials/ beside the scene file, else from `library`. Checks what bodies
 /// and numerics ask of them. Throws InputError with the problems of all materials.

@@ -21,14 +21,6 @@ struct Porosity {
 /// Pressure of the porous body [Pa]: P = P_s(alpha rho, e)/alpha (Carroll & Holt 1972).
 inline double bulk_pressure(const EosPoint& solid, double alpha) { return solid.pressure / alpha; }
 
-/// d(alpha)/dP [1/Pa] of a body at this pressure: that of the curve when it is being crushed, 0 when it lies below the
-/// curve (elastic, unloaded, reloading). The elastic branch is rigid: pores neither shrink nor grow on it.
-inline double crush_slope(const CrushCurve& curve, double pressure, double alpha) {
-  constexpr double on_curve = 1e-6;  // above any solver tolerance, below any distension that matters
-  const CrushPoint point = curve.evaluate(pressure);
-  return point.alpha <= alpha + on_curve ? point.slope : 0;
-}
-
 /// alpha + d(alpha)/dP (P - rho dP_s/drho_s), the denominator of both rates below. It equals alpha (1 - d(alpha)/dP
 /// dP/d(alpha)), thus alpha at least unless the pressure falls with growing alpha (strongly expanded hot solid). There
 /// it may vanish or turn negative, which would make pores open without bound: alpha is its lower limit.
@@ -36,11 +28,25 @@ inline double crush_denominator(const EosPoint& solid, double rho, double alpha,
   return std::max(alpha, alpha + slope * (bulk_pressure(solid, alpha) - rho * solid.dP_drho));
 }
 
+/// d(alpha)/dP [1/Pa] of a body in this state: that of the curve when it is being crushed, 0 when it lies below the
+/// curve (elastic, unloaded, reloading). The elastic branch is rigid: pores neither shrink nor grow on it.
+///
+/// A body counts as on the curve if a change of alpha below any that matters would bring it there. Measured along alpha
+/// at constant pressure the distance would be up to a thousand times as long, as P is stiff and the curve steep: a
+/// solution within the tolerance of its solver would count as off the curve, and the solid see all or none of the
+/// strain by chance.
+inline double crush_slope(const CrushCurve& curve, const EosPoint& solid, double rho, double alpha) {
+  constexpr double on_curve = 1e-6;  // above any solver tolerance, below any distension that matters
+  const CrushPoint point = curve.evaluate(bulk_pressure(solid, alpha));
+  const double steepness = crush_denominator(solid, rho, alpha, point.slope) / alpha;
+  return point.alpha <= alpha + on_curve * steepness ? point.slope : 0;
+}
+
 /// Rate of distension [1/s] along the curve: d(alpha)/dP [alpha dP_s/drho_s drho/dt + dP_s/de de/dt] / denominator,
 /// never positive: pores do not reopen.
 inline double distension_rate(const CrushCurve& curve, const EosPoint& solid, double rho, double alpha,
                               double density_rate, double energy_rate) {
-  const double slope = crush_slope(curve, bulk_pressure(solid, alpha), alpha);
+  const double slope = crush_slope(curve, solid, rho, alpha);
   const double drive = alpha * solid.dP_drho * density_rate + solid.dP_de * energy_rate;
   return std::min(0.0, slope * drive / crush_denominator(solid, rho, alpha, slope));
 }
@@ -48,7 +54,7 @@ inline double distension_rate(const CrushCurve& curve, const EosPoint& solid, do
 /// Share f of the strain rate that the solid sees: f = 1 + (rho/alpha) d(alpha)/drho with the adiabatic
 /// d(alpha)/drho = d(alpha)/dP [P/rho^2 dP_s/de + alpha dP_s/drho_s] / denominator; 0 (all strain closes pores) to 1.
 inline double stress_factor(const CrushCurve& curve, const EosPoint& solid, double rho, double alpha) {
-  const double pressure = bulk_pressure(solid, alpha), slope = crush_slope(curve, pressure, alpha);
+  const double pressure = bulk_pressure(solid, alpha), slope = crush_slope(curve, solid, rho, alpha);
   const double drive = pressure / (rho * rho) * solid.dP_de + alpha * solid.dP_drho;
   const double dalpha_drho = slope * drive / crush_denominator(solid, rho, alpha, slope);
   return std::clamp(1 + dalpha_drho * rho / alpha, 0.0, 1.0);

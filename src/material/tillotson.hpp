@@ -14,9 +14,9 @@ namespace ejecta {
 /// P is continuous everywhere; its derivatives jump at eta = 1 (for e > E_iv), at E_iv and at E_cv.
 ///
 /// Two limits keep every density above zero and every energy usable:
-/// - The cold pressure A mu + B mu^2 goes to zero with the density only if A = B. In expansion, max(A, B) takes the place
-///   of B: for B < A a tension of A - B would be left at zero density. For B > A cold matter would repel itself beyond
-///   mu = -A/B, the more the thinner it is; the cold pressure is zero there instead.
+/// - The cold pressure A mu + B mu^2 goes to zero with the density only if A = B. In expansion, max(A, B) takes the
+///   place of B: for B < A a tension of A - B would be left at zero density. For B > A cold matter would repel itself
+///   beyond mu = -A/B, the more the thinner it is; the cold pressure is zero there instead.
 /// - e < 0, a small numerical undershoot, leaves w at 1 (w would pass through zero in strong expansion).
 struct Tillotson {
   double rho0;         ///< reference density [kg/m^3]

@@ -50,6 +50,7 @@ struct Body {
   double pressure = unset;           ///< Pa; gas bodies: sets the specific energy
   double specific_energy = 0;        ///< J/kg; used where pressure is not given
   double spacing_factor = 1;         ///< particle spacing relative to resolution.spacing
+  std::string origin;                ///< where the scene says so: "inputs/x.toml:14"
   double jitter = 0;                 ///< random displacement along each axis, up to this many spacings
   Profile profile;
 };

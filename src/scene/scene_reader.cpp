@@ -62,6 +62,8 @@ Scene interpret(Document document, const std::vector<std::string>& overrides) {
   Describer description;
   describe(description, scene);
   read_settings(description, document, problems);
+  for (std::size_t k = 0; k < scene.bodies.size(); ++k)
+    scene.bodies[k].origin = document.origin(fmt::format("bodies[{}]", k)).text;
   find_pipelines(scene, document, problems);
   check_scene(scene, document, problems);
   problems.throw_if_any();

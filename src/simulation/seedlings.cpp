@@ -33,10 +33,10 @@ FormulaPoint formula_point(const Body& body, const Vec<Dim>& x, double spacing) 
   return point;
 }
 
-void refuse_value(const Scene& scene, const Body& body, const std::string& key, const std::string& expected,
-                  double value, const FormulaPoint& point) {
+void refuse_value(const Body& body, const std::string& key, const std::string& expected, double value,
+                  const FormulaPoint& point) {
   throw InputError(fmt::format("{}: bodies.{}.profile.{}: expected {}, got {} at ({:.6g}, {:.6g}, {:.6g}) m",
-                               scene.file, body.name, key, expected, value, point.x[0], point.x[1], point.x[2]));
+                               body.origin, body.name, key, expected, value, point.x[0], point.x[1], point.x[2]));
 }
 
 namespace {
@@ -80,8 +80,7 @@ std::vector<Seedling<Dim>> fill_body(const Scene& scene, std::size_t b, const Ma
     if (!density.empty()) {
       const FormulaPoint point = formula_point<Dim>(body, s.x, width);
       s.density = density.front()(point);
-      if (!(s.density > 0 && std::isfinite(s.density)))
-        refuse_value(scene, body, "density", "a number > 0", s.density, point);
+      if (!(s.density > 0 && std::isfinite(s.density))) refuse_value(body, "density", "a number > 0", s.density, point);
     }
     seedlings.push_back(s);
   }
@@ -98,7 +97,7 @@ std::vector<Seedling<Dim>> sow(const Scene& scene, const std::vector<Material>& 
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const Body& body = scene.bodies[b];
     const auto report = [&](const std::string& text) {
-      problems.push_back(fmt::format("{}: bodies.{}: {}", scene.file, body.name, text));
+      problems.push_back(fmt::format("{}: bodies.{}: {}", body.origin, body.name, text));
     };
     const auto seedlings =
         fill_body<Dim>(scene, b, materials[static_cast<std::size_t>(body_material[b])], body_material[b]);

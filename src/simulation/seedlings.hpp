@@ -32,7 +32,7 @@ template <int Dim>
 FormulaPoint formula_point(const Body& body, const Vec<Dim>& x, double spacing);
 
 /// Throws InputError: what a formula of a body's profile gave at a point.
-[[noreturn]] void refuse_value(const Scene& scene, const Body& body, const std::string& key,
-                               const std::string& expected, double value, const FormulaPoint& point);
+[[noreturn]] void refuse_value(const Body& body, const std::string& key, const std::string& expected, double value,
+                               const FormulaPoint& point);
 
 }  // namespace ejecta

@@ -40,7 +40,7 @@ void apply_profiles(Simulation<Dim>& sim, const std::vector<Seedling<Dim>>& seed
         if (seedlings[i].body != static_cast<int>(b)) continue;
         const FormulaPoint point = formula_point<Dim>(body, seedlings[i].x, seedlings[i].spacing);
         const double value = formula(point);
-        if (!std::isfinite(value)) refuse_value(sim.scene, body, key, "a finite number", value, point);
+        if (!std::isfinite(value)) refuse_value(body, key, "a finite number", value, point);
         store(i, value);
       }
     };

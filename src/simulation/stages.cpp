@@ -9,6 +9,7 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
   using enum Field;
   auto any = [&](auto has) { return std::any_of(materials.begin(), materials.end(), has); };
   const bool solid = any([](const Material& m) { return m.solid(); });
+  const bool yields = any([](const Material& m) { return m.solid() && m.strength; });
   const bool porous = any([](const Material& m) { return m.porosity.has_value(); });
   const bool breaks = any(
       [](const Material& m) { return m.damage.has_value() || (m.porosity && m.porosity->crush_damage && m.solid()); });
@@ -35,7 +36,7 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
           {pressure, sound_speed}, porous,
           solid ? std::initializer_list<Field>{distension, stress_factor} : std::initializer_list<Field>{distension}),
       equation_of_state<Dim>);
-  if (solid)
+  if (yields)
     add("strength", extended({deviatoric_stress, pressure, specific_energy}, breaks, {Field::damage}),
         {deviatoric_stress, plastic_strain}, strength<Dim>);
   if (breaks)
