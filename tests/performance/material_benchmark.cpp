@@ -1,74 +1,126 @@
-/// Equation of state and distension of random states of pumice, one at a time.
-#include <benchmark/benchmark.h>
-
-#include <boost/math/tools/toms748_solve.hpp>
+/// The stages of a run that are physics of one particle: stage/<name>/<dimension>/<state>. States are random, and put
+/// back before every pass with the clock stopped. Most move more bytes than they compute; the bytes counted are the
+/// columns read plus those written.
 #include <random>
 
 #include "material/distension_solver.hpp"
-#include "material/tillotson.hpp"
+#include "performance/bodies.hpp"
+#include "performance/flops.hpp"
+#include "performance/measure.hpp"
 
 namespace ejecta {
 namespace {
 
-constexpr Tillotson solid{2327, 0.5, 1.5, 26.7e9, 26.7e9, 487e6, 4.72e6, 18.2e6, 5, 5};
-const CrushCurve curve = CrushCurve::two_power(3.3243, 4.64, 1.90, 1e6, 6.8e7, 2.13e8, 12, 3);
-constexpr double tolerance = 1e-12;
+constexpr double particles = 150000;
+const std::vector<std::string> without_pores{"materials.pumice.porosity.model=none"};
 
-struct State {
-  double rho, e, alpha_old;
-};
-/// Bodies compressed by up to 15 % beyond the distension they had: nearly all are being crushed.
-std::vector<State> random_states() {
-  std::mt19937_64 random(1);
-  std::uniform_real_distribution<double> uniform(0, 1);
-  std::vector<State> states(4096);
-  for (State& s : states) {
-    s.alpha_old = 1 + (curve.initial_distension - 1) * uniform(random);
-    s.rho = solid.rho0 / s.alpha_old * (1 + 0.15 * uniform(random));
-    s.e = 1e5 * uniform(random);
+void fill(Simulation<3>& sim, Field f, double low, double high) {
+  std::mt19937_64 random(static_cast<unsigned>(f) + 1);
+  std::uniform_real_distribution<double> uniform(low, high);
+  for (int k = 0; k < components(info(f).shape, 3); ++k)
+    for (double& value : sim.particles.column(f, k)) value = uniform(random);
+}
+
+/// Runs one stage again and again, each time from the values that the body holds now.
+Measurement measure_stage(benchmark::State& state, Simulation<3>& sim, const std::string& name) {
+  const auto stage = std::find_if(sim.stages.begin(), sim.stages.end(), [&](const auto& s) { return s.name == name; });
+  const Particles<3> saved = sim.particles;
+  Measurement measured(state);
+  measured.run([&] { stage->run(sim); },
+               [&] {
+                 for (const Field f : stage->writes)
+                   for (int k = 0; k < components(info(f).shape, 3); ++k)
+                     std::ranges::copy(saved.column(f, k), sim.particles.column(f, k).begin());
+               });
+  measured.items(static_cast<double>(sim.particles.size()));
+  return measured;
+}
+double bytes_of_columns(const Simulation<3>& sim, int columns) {
+  return static_cast<double>(sim.particles.size()) * columns * sizeof(double);
+}
+/// Share of the particles for which it is true.
+template <class Predicate>
+double share_of(const Simulation<3>& sim, Predicate&& predicate) {
+  double count = 0;
+  for (std::size_t i = 0; i < sim.particles.size(); ++i) count += predicate(i);
+  return count / static_cast<double>(sim.particles.size());
+}
+
+/// Density and energy in, pressure and sound speed out.
+void dense(benchmark::State& state, Simulation<3>& sim, std::array<double, 2> densities,
+           std::array<double, 2> energies) {
+  fill(sim, Field::density, densities[0], densities[1]);
+  fill(sim, Field::specific_energy, energies[0], energies[1]);
+  measure_stage(state, sim, "equation of state").bytes(bytes_of_columns(sim, 4));
+}
+void ideal_gas(benchmark::State& state) { dense(state, body<3>("air", particles), {1, 10}, {1e4, 1e6}); }
+void tillotson_condensed(benchmark::State& state) {
+  dense(state, body<3>("pumice", particles, without_pores), {2327, 3000}, {0, 1e6});
+}
+/// Compressed and expanded; cold, partly vaporised and vapour.
+void tillotson_everywhere(benchmark::State& state) {
+  dense(state, body<3>("pumice", particles, without_pores), {500, 3500}, {0, 25e6});
+}
+
+/// `compression`: by how much particles are denser than their distension makes them at rest, at most.
+void porous(benchmark::State& state, double compression, double most_energy) {
+  auto& sim = body<3>("pumice", particles);
+  const auto rho = sim.particles.column(Field::density), energy = sim.particles.column(Field::specific_energy),
+             alpha = sim.particles.column(Field::distension);
+  fill(sim, Field::distension, 1, sim.materials[0].porosity->initial_distension());
+  fill(sim, Field::density, 1, 1 + compression);
+  fill(sim, Field::specific_energy, 0, most_energy);
+  const auto& eos = std::get<Tillotson>(sim.materials[0].eos);
+  double evaluations = 0;
+  for (std::size_t i = 0; i < rho.size(); ++i) {
+    rho[i] *= eos.rho0 / alpha[i];
+    evaluations += solve_distension(sim.materials[0].porosity->curve, eos, rho[i], energy[i], alpha[i],
+                                    sim.scene.numerics.distension_solver, sim.scene.numerics.distension_tolerance)
+                       .evaluations;
   }
-  return states;
+  auto measured = measure_stage(state, sim, "equation of state");
+  measured.counter("evaluations", evaluations / static_cast<double>(rho.size()));
+  measured.flops<double>(evaluations * flops::distension_residual);
+}
+void porous_crushing(benchmark::State& state) { porous(state, 0.15, 1e5); }
+/// Too little pressure to crush anything: most particles of a run, most of the time.
+void porous_at_rest(benchmark::State& state) { porous(state, 0, 100); }
+
+/// Reads 5 deviators, pressure, energy, damage, distension; writes 5 deviators.
+void strength(benchmark::State& state) {
+  auto& sim = body<3>("pumice", particles);
+  fill(sim, Field::deviatoric_stress, -30e6, 30e6);
+  fill(sim, Field::pressure, -1e6, 1e8);
+  fill(sim, Field::specific_energy, 0, 1e5);
+  fill(sim, Field::distension, 1, 3.3);
+  fill(sim, Field::plastic_strain, 0, 0);
+  auto measured = measure_stage(state, sim, "strength");
+  measured.bytes(bytes_of_columns(sim, 9 + 5));
+  measured.counter("yielding",
+                   share_of(sim, [&](auto i) { return sim.particles.column(Field::plastic_strain)[i] > 0; }));
 }
 
-template <class Solve>
-void per_state(benchmark::State& run, Solve&& solve) {
-  const std::vector<State> states = random_states();
-  for (auto _ : run)
-    for (const State& s : states) benchmark::DoNotOptimize(solve(s));
-  run.counters["states_per_s"] =
-      benchmark::Counter(static_cast<double>(states.size()), benchmark::Counter::kIsIterationInvariantRate);
+/// Reads 5 deviators, 3 of flaws, pressure, crack, damage, distension, sound speed, smoothing length; writes pressure,
+/// crack rate, damage and the intact share.
+void damage(benchmark::State& state) {
+  auto& sim = body<3>("pumice", particles);
+  fill(sim, Field::deviatoric_stress, -3e6, 3e6);
+  fill(sim, Field::pressure, -1e7, 1e7);
+  fill(sim, Field::distension, 1, 3.3);
+  fill(sim, Field::crack, 0, 0.5);
+  fill(sim, Field::damage, 0, 0);
+  auto measured = measure_stage(state, sim, "damage");
+  measured.bytes(bytes_of_columns(sim, 14 + 4));
+  measured.counter("growing", share_of(sim, [&](auto i) { return sim.particles.column(Field::crack_rate)[i] > 0; }));
 }
 
-void eos_tillotson(benchmark::State& run) {
-  per_state(run, [](const State& s) { return solid.evaluate(s.alpha_old * s.rho, s.e).pressure; });
-}
-void distension_safe_newton(benchmark::State& run) {
-  per_state(run, [](const State& s) {
-    return solve_distension(curve, solid, s.rho, s.e, s.alpha_old, DistensionSolver::safe_newton, tolerance).alpha;
-  });
-}
-void distension_bisection(benchmark::State& run) {
-  per_state(run, [](const State& s) {
-    return solve_distension(curve, solid, s.rho, s.e, s.alpha_old, DistensionSolver::bisection, tolerance).alpha;
-  });
-}
-void distension_toms748(benchmark::State& run) {
-  per_state(run, [](const State& s) {
-    const auto residual = [&](double alpha) {
-      return alpha - std::min(curve.alpha(solid.evaluate(alpha * s.rho, s.e).pressure / alpha), s.alpha_old);
-    };
-    if (residual(s.alpha_old) <= 0) return s.alpha_old;
-    if (residual(1) >= 0) return 1.0;
-    std::uintmax_t evaluations = 200;
-    const auto close = [](double low, double high) { return high - low <= tolerance; };
-    return boost::math::tools::toms748_solve(residual, 1.0, s.alpha_old, close, evaluations).first;
-  });
-}
-
-BENCHMARK(eos_tillotson);
-BENCHMARK(distension_safe_newton);
-BENCHMARK(distension_bisection);
-BENCHMARK(distension_toms748);
+BENCHMARK(ideal_gas)->Name("stage/equation_of_state/3d/ideal_gas")->Unit(benchmark::kMillisecond);
+BENCHMARK(tillotson_condensed)->Name("stage/equation_of_state/3d/tillotson_condensed")->Unit(benchmark::kMillisecond);
+BENCHMARK(tillotson_everywhere)->Name("stage/equation_of_state/3d/tillotson_everywhere")->Unit(benchmark::kMillisecond);
+BENCHMARK(porous_at_rest)->Name("stage/equation_of_state/3d/porous_at_rest")->Unit(benchmark::kMillisecond);
+BENCHMARK(porous_crushing)->Name("stage/equation_of_state/3d/porous_crushing")->Unit(benchmark::kMillisecond);
+BENCHMARK(strength)->Name("stage/strength/3d")->Unit(benchmark::kMillisecond);
+BENCHMARK(damage)->Name("stage/damage/3d")->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace ejecta

@@ -1,92 +1,103 @@
-/// Pair passes and pair lists of a porous body of about 50 000 particles with some 70 neighbours, one thread.
-#include <benchmark/benchmark.h>
-
-#include "base/parallel.hpp"
+/// The pair passes: pair_rates/<dimension>/<kernel>/<precision>/<gas|stress|corrected> and
+/// summation_density/<dimension>/<kernel>/<precision>. Time does not depend on the state of the particles.
 #include "particles/spatial_order.hpp"
-#include "performance/peak.hpp"
-#include "unit/simulation/small_scenes.hpp"
+#include "performance/bodies.hpp"
+#include "performance/flops.hpp"
+#include "performance/measure.hpp"
+#include "scene/names.hpp"
+#include "schemes/kernels.hpp"
+#include "schemes/pair_records.hpp"
 
 namespace ejecta {
 namespace {
 
-std::unique_ptr<Simulation<3>> body(const std::vector<std::string>& more) {
-  set_threads(1);
-  std::vector<std::string> overrides{"resolution.spacing=1.55 mm"};
-  overrides.insert(overrides.end(), more.begin(), more.end());
-  return start<3>(porous_impact, overrides);
-}
+constexpr double particles = 50000;
 
-/// Mean number of particles within the support 2 h.
-double mean_neighbours(const Simulation<3>& sim) {
-  const auto& p = sim.particles;
-  std::size_t pairs = 0, members = 0;
-  for (std::size_t c = 0; c < sim.lists.clusters().size(); c += 50) {
-    const Cluster& cluster = sim.lists.clusters()[c];
-    for (std::size_t i = cluster.begin; i < cluster.end; ++i, ++members)
-      for (const std::uint32_t j : sim.lists.candidates(c))
-        pairs += i != j && (p.vector(Field::position, i) - p.vector(Field::position, j)).norm() <
-                               2 * p.column(Field::smoothing_length)[i];
+/// Lists and a pass for one case, on the particles of the body that all cases share.
+template <int Dim>
+struct PairCase {
+  Simulation<Dim>& sim = body<Dim>("pumice", particles);
+  PairLists<Dim> lists;
+  std::unique_ptr<PairPass<Dim>> pass;
+
+  explicit PairCase(const flops::PairWork& work) {
+    PairPassSettings settings;
+    settings.kernel = work.kernel;
+    settings.precision = work.mixed ? Precision::mixed : Precision::double_precision;
+    settings.stress = work.stress;
+    settings.velocity_gradient = work.gradient;
+    settings.gradient_correction = work.correction;
+    settings.length_unit = power_of_two_below(sim.scene.spacing);
+    const std::size_t cluster = cluster_size(settings.precision);
+    spatial_order(sim.particles, cluster, sim.order);
+    sim.particles.reorder(sim.order);
+    lists.build(sim.particles, {kernel_support(work.kernel), cluster, 0, {}});
+    pass = make_pair_pass<Dim>(settings);
   }
-  return static_cast<double>(pairs) / static_cast<double>(members);
+
+  /// Particles within the support of a particle, the mean over all.
+  double mean_neighbours(Kernel kernel) const {
+    const auto& p = sim.particles;
+    const double support = kernel_support(kernel);
+    std::size_t pairs = 0, members = 0;
+    for (std::size_t c = 0; c < lists.clusters().size(); c += 50) {
+      const Cluster& cluster = lists.clusters()[c];
+      for (std::size_t i = cluster.begin; i < cluster.end; ++i, ++members)
+        for (const std::uint32_t j : lists.candidates(c))
+          pairs += i != j && (p.vector(Field::position, i) - p.vector(Field::position, j)).norm() <
+                                 support * p.column(Field::smoothing_length)[i];
+    }
+    return static_cast<double>(pairs) / static_cast<double>(members);
+  }
+
+  void report(Measurement& measured, const flops::PairWork& work, int flops_per_lane) const {
+    const std::size_t lanes = lists.clusters().front().end - lists.clusters().front().begin;
+    const double pairs = lists.mean_candidates() * static_cast<double>(lists.clusters().size() * lanes);
+    measured.items(static_cast<double>(sim.particles.size()));
+    measured.counter("neighbours", mean_neighbours(work.kernel));
+    measured.counter("candidates", lists.mean_candidates());
+    if (work.mixed) {
+      measured.flops<float>(pairs * flops_per_lane);
+    } else {
+      measured.flops<double>(pairs * flops_per_lane);
+    }
+  }
+};
+
+template <int Dim>
+void pair_rates(benchmark::State& state, const flops::PairWork& work) {
+  PairCase<Dim> c(work);
+  Measurement measured(state);
+  measured.run([&] { c.pass->rates(c.sim.particles, c.lists, c.sim.intact); });
+  c.report(measured, work, flops::pair_rates(work));
 }
 
-/// Additions and multiplications per lane and candidate, counted in the source of the pair loop (3D, stress).
-constexpr double operations = 134, operations_of_correction = 12;
-
-template <class T>
-void pair_rates(benchmark::State& state, const std::vector<std::string>& overrides, double operations_per_lane) {
-  const auto sim = body(overrides);
-  for (auto _ : state) sim->pass->rates(sim->particles, sim->lists, sim->intact);
-  const auto n = static_cast<double>(sim->particles.size());
-  const auto clusters = static_cast<double>(sim->lists.clusters().size());
-  using benchmark::Counter;
-  const double lanes = sim->lists.mean_candidates() * clusters * simd::lanes<T>;
-  state.counters["particles_per_s"] = Counter(n, Counter::kIsIterationInvariantRate);
-  state.counters["neighbours"] = mean_neighbours(*sim);
-  state.counters["candidates"] = sim->lists.mean_candidates();
-  state.counters["share_of_peak"] =
-      Counter(lanes * operations_per_lane / peak_operations<T>(), Counter::kIsIterationInvariantRate);
+template <int Dim>
+void summation_density(benchmark::State& state, const flops::PairWork& work) {
+  PairCase<Dim> c(work);
+  Measurement measured(state);
+  measured.run([&] { c.pass->density(c.sim.particles, c.lists); });
+  c.report(measured, work, flops::pair_density(work));
 }
 
-void pair_rates_double(benchmark::State& state) { pair_rates<double>(state, {}, operations); }
-void pair_rates_mixed(benchmark::State& state) { pair_rates<float>(state, {"numerics.precision=mixed"}, operations); }
-void pair_rates_double_corrected(benchmark::State& state) {
-  pair_rates<double>(state, {"numerics.gradient_correction=true"}, operations + operations_of_correction);
-}
-void pair_rates_mixed_corrected(benchmark::State& state) {
-  pair_rates<float>(state, {"numerics.precision=mixed", "numerics.gradient_correction=true"},
-                    operations + operations_of_correction);
-}
-
-void pair_list_build(benchmark::State& state) {
-  const auto sim = body({});
-  PairLists<3> lists;
-  for (auto _ : state) lists.build(sim->particles, {2, 8, 0, {}});
-  state.counters["particles_per_s"] =
-      benchmark::Counter(static_cast<double>(sim->particles.size()), benchmark::Counter::kIsIterationInvariantRate);
-}
-void spatial_sort(benchmark::State& state) {
-  const auto sim = body({});
-  std::vector<std::uint32_t> order;
-  for (auto _ : state) spatial_order(sim->particles, 8, order);
-  state.counters["particles_per_s"] =
-      benchmark::Counter(static_cast<double>(sim->particles.size()), benchmark::Counter::kIsIterationInvariantRate);
-}
-/// All stages of a step.
-void whole_step(benchmark::State& state) {
-  const auto sim = body({});
-  for (auto _ : state) step(*sim, no_limit);
-  state.counters["particles_per_s"] =
-      benchmark::Counter(static_cast<double>(sim->particles.size()), benchmark::Counter::kIsIterationInvariantRate);
+template <int Dim>
+void add_cases() {
+  for (const Kernel kernel : {Kernel::cubic_spline, Kernel::quintic_spline, Kernel::wendland_c2, Kernel::wendland_c4})
+    for (const bool mixed : {false, true}) {
+      const std::string of = fmt::format("{}d/{}/{}", Dim, name_of(kernel), mixed ? "mixed" : "double");
+      const auto add = [](const std::string& name, auto function, const flops::PairWork& work) {
+        benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
+          function(state, work);
+        })->Unit(benchmark::kMillisecond);
+      };
+      add("pair_rates/" + of + "/gas", pair_rates<Dim>, {Dim, kernel, mixed, false, false, false});
+      add("pair_rates/" + of + "/stress", pair_rates<Dim>, {Dim, kernel, mixed, true, true, false});
+      add("pair_rates/" + of + "/corrected", pair_rates<Dim>, {Dim, kernel, mixed, true, true, true});
+      add("summation_density/" + of, summation_density<Dim>, {Dim, kernel, mixed, false, false, false});
+    }
 }
 
-BENCHMARK(pair_rates_double)->Unit(benchmark::kMillisecond);
-BENCHMARK(pair_rates_mixed)->Unit(benchmark::kMillisecond);
-BENCHMARK(pair_rates_double_corrected)->Unit(benchmark::kMillisecond);
-BENCHMARK(pair_rates_mixed_corrected)->Unit(benchmark::kMillisecond);
-BENCHMARK(pair_list_build)->Unit(benchmark::kMillisecond);
-BENCHMARK(spatial_sort)->Unit(benchmark::kMillisecond);
-BENCHMARK(whole_step)->Unit(benchmark::kMillisecond);
+const bool added = (add_cases<2>(), add_cases<3>(), true);
 
 }  // namespace
 }  // namespace ejecta

@@ -35,6 +35,8 @@ def main():
             ladder = case.full if options.full else case.quick
             if options.resolutions:
                 ladder = tuple(int(r) for r in options.resolutions.split(","))
+            if not ladder:  # nothing of this case belongs to the ordinary test
+                continue
             measurements, wrong = verify(case, ladder, settings, options.threads, not options.errors_only,
                                          Path(options.keep) if options.keep else None)
             all_rows += rows(case, measurements)

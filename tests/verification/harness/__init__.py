@@ -6,6 +6,6 @@ A case is a folder with a scene and a `case.py` that defines CASES, a list of in
 """
 from .base import Bound, Case, load_cases
 from .ladder import Measurement, Row, measure, rows
-from .norms import l1, l2, linf, order, relative
+from .norms import binned, fall, l1, l2, linf, order, relative
 from .run import Run, RunFailed, State, execute
 from .verdict import verify

@@ -9,12 +9,21 @@ ROOT = Path(__file__).resolve().parents[1]
 
 @dataclass(frozen=True)
 class Bound:
-    """What is asked of one error: limits at resolutions {100: 0.0065}, and the least order over the ladder."""
+    """What is asked of one error: limits at resolutions {100: 0.0065} or one for all, and the least order."""
     quantity: str
     norm: str
-    limits: dict
-    order: float | None = None
+    limits: dict | float
+    order: float | None = None  # over the whole ladder
     why: str = ""  # where the limits come from; why no order is asked, if none is
+
+    def limit(self, resolution):
+        """The limit at a resolution, or None."""
+        return self.limits.get(resolution) if isinstance(self.limits, dict) else self.limits
+
+    def __str__(self):
+        limits = self.limits.items() if isinstance(self.limits, dict) else [("all", self.limits)]
+        order = "no order asked" if self.order is None else f"order >= {self.order}"
+        return ", ".join(f"<= {limit:.4g} at {r}" for r, limit in limits) + f", {order}"
 
 
 class Case:
@@ -44,6 +53,12 @@ class Case:
     def errors(self, run, resolution):
         """{(quantity, norm): error} of a finished run."""
         raise NotImplementedError
+
+    profile_axis = "x [m]"
+
+    def profiles(self, run):
+        """For a figure: [("density [kg/m^3]", x, computed, exact), ...], arrays with a value per particle."""
+        return []
 
     def check_exact(self):
         """Asserts that the exact solution itself gives the numbers that are printed elsewhere."""

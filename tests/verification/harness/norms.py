@@ -25,3 +25,19 @@ def order(resolutions, errors):
     if len(errors) < 2 or not np.all(errors > 0):
         return float("nan")
     return float(-np.polyfit(np.log(resolutions), np.log(errors), 1)[0])
+
+
+def binned(x, values, width):
+    """Means of x and values in bins of a width; empty bins are left out."""
+    _, bin_of = np.unique(np.floor(x / width), return_inverse=True)
+    count = np.bincount(bin_of)
+    return np.bincount(bin_of, x) / count, np.bincount(bin_of, values) / count
+
+
+def fall(x, values, level):
+    """Rightmost x at which a profile falls through a level; nan if it does not."""
+    k = np.flatnonzero((values[:-1] >= level) & (values[1:] < level))
+    if len(k) == 0:
+        return float("nan")
+    k = k[-1]
+    return float(x[k] + (x[k + 1] - x[k]) * (values[k] - level) / (values[k] - values[k + 1]))

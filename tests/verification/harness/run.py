@@ -120,10 +120,11 @@ class Run:
 
     @property
     def momentum_drift(self):
-        """Largest change of linear momentum along the axes without walls, relative to a bound on sum m|v|; nan if there
-        is a wall on every axis."""
+        """Largest change of linear momentum along the axes without walls, relative to a bound on the sum of m times the
+        speeds of particles and of sound (Cauchy-Schwarz); nan if there is a wall on every axis."""
         kinds = [self.scene["boundary"][axis] for axis in "xyz"[:self.dimension]]
-        scale = np.sqrt(2 * self.history["mass"] * self.history["kinetic energy"]).max()
+        energy = self.history["kinetic energy"] + np.abs(self.history["internal energy"])
+        scale = np.sqrt(2 * self.history["mass"] * energy).max()
         drifts = [np.abs(p - p[0]).max() for axis, kind in zip("xyz", kinds) if kind != "reflecting"
                   for p in [self.history[f"momentum {axis}"]]]
         return float(max(drifts) / scale) if drifts and scale > 0 else float("nan")

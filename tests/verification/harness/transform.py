@@ -5,14 +5,11 @@ import re
 
 
 def minus(value):
-    """-value of a number, of a text with a unit ("3 m") or of the text of a formula."""
+    """-value of a number or of a text with a unit ("3 m")."""
     if isinstance(value, (int, float)):
         return -value
     number, _, unit = value.partition(" ")
-    try:
-        return f"{-float(number)!r} {unit}".strip()
-    except ValueError:
-        return f"-({value})"
+    return f"{-float(number)!r} {unit}"
 
 
 def turned(scene):
@@ -43,16 +40,14 @@ def turned_profile(profile):
 
     result = {}
     for key, value in profile.items():
-        if isinstance(value, list):
-            value = [seen(v) for v in value]
-            if key == "deviatoric_stress":
-                xx, yy, xy, *out = value  # out of the plane: xz, yz
-                value = [yy, xx, minus(xy), *([minus(out[1]), out[0]] if out else [])]
-            else:
-                value = [minus(value[1]), value[0], *value[2:]]
-        else:
-            value = seen(value)
-        result[key] = value
+        if not isinstance(value, list):
+            result[key] = seen(value)
+        elif value and key == "deviatoric_stress":
+            xx, yy, xy, *out = map(seen, value)  # out of the plane: xz, yz
+            result[key] = [yy, xx, f"-({xy})", *([f"-({out[1]})", out[0]] if out else [])]
+        elif value:
+            x, y, *z = map(seen, value)
+            result[key] = [f"-({y})", x, *z]
     return result
 
 
@@ -64,7 +59,7 @@ def boosted(scene, axis, speed):
         velocity = list(body.get("velocity", ["0 m/s"] * 3))
         velocity[k] = f"{float(velocity[k].split()[0]) + speed!r} m/s"
         body["velocity"] = velocity
-        if "velocity" in body.get("profile", {}):
+        if body.get("profile", {}).get("velocity"):
             body["profile"]["velocity"][k] = f"({body['profile']['velocity'][k]}) + {speed!r}"
     return scene
 

@@ -2,7 +2,7 @@
 import numpy as np
 
 from exact.riemann import Gas, ShockTube
-from harness import Bound, Case, l1
+from harness import Bound, Case, binned, fall, l1
 
 
 class Sod(Case):
@@ -21,6 +21,8 @@ class Sod(Case):
         Bound("density", "L1", {100: 0.0065, 400: 0.0018}, 0.8),
         Bound("velocity", "L1", {100: 0.02, 400: 0.005}, 0.8),
         Bound("pressure", "L1", {100: 0.007, 400: 0.0019}, 0.8),
+        Bound("shock position", "spacings", 3.0, why="as sharp as the shock is resolved; in spacings no order is left"),
+        Bound("contact position", "spacings", 3.0, why="the same"),
     )
 
     def settings(self, resolution):
@@ -37,8 +39,23 @@ class Sod(Case):
         inner = np.abs(x) < self.half_width
         exact = self.tube.at(x[inner] / state.time)
         values = state["density"], state["velocity"][:, 0], state["pressure"]
-        return {(name, "L1"): l1(value[inner], truth, state.volume[inner])
-                for name, value, truth in zip(("density", "velocity", "pressure"), values, exact)}
+        errors = {(name, "L1"): l1(value[inner], truth, state.volume[inner])
+                  for name, value, truth in zip(("density", "velocity", "pressure"), values, exact)}
+        spacing, tube = 0.5 / resolution, self.tube
+        star, contact = tube.pressure, tube.velocity * state.time
+        levels = {"shock": ("pressure", (star + tube.right.pressure) / 2, x > contact, tube.shock_speed() * state.time),
+                  "contact": ("density", (tube.behind(tube.left).density + tube.behind(tube.right).density) / 2,
+                              np.abs(x - contact) < 0.08, contact)}
+        for name, (field, level, near, exactly) in levels.items():
+            place = fall(*binned(x[near], state[field][near], 2 * spacing), level)
+            errors[f"{name} position", "spacings"] = abs(place - exactly) / spacing
+        return errors
+
+    def profiles(self, run):
+        state, x = run.final, run.final["position"][:, 0]
+        values = state["density"], state["velocity"][:, 0], state["pressure"]
+        labels = "density [kg/m^3]", "velocity [m/s]", "pressure [Pa]"
+        return [(label, x, value, exact) for label, value, exact in zip(labels, values, self.tube.at(x / state.time))]
 
     def check_exact(self):
         left, right = self.tube.behind(self.tube.left), self.tube.behind(self.tube.right)

@@ -1,0 +1,109 @@
+"""What each feature of a scene adds: stages, columns, and nothing else.
+
+A case is the case it is based on with settings added. The first case of each scene says all it has; every other one
+only what it adds to its base and what it drops."""
+from dataclasses import dataclass
+from pathlib import Path
+
+FOLDER = Path(__file__).resolve().parent
+
+# Every stage there is, in the order of the algorithm.
+ALGORITHM = ["neighbours", "density", "equation of state", "strength", "damage", "pair rates", "strain rates",
+             "shear switch", "smoothing lengths"]
+
+# Components in three dimensions of what is no plain number.
+COMPONENTS = {"position": 3, "velocity": 3, "acceleration": 3, "velocity_gradient": 9, "deviatoric_stress": 5,
+              "stress_rate": 5}
+# Rates are kept twice: the integrator needs those of the step before.
+RATES = {"acceleration", "heating", "density_rate", "stress_rate", "crack_rate"}
+
+GAS_COLUMNS = """position velocity acceleration mass density specific_energy heating pressure sound_speed
+smoothing_length neighbour_sum approach_speed""".split()
+
+
+def bytes_of(columns):
+    """Memory of one particle in these columns."""
+    return sum(8 * COMPONENTS.get(c, 1) * (2 if c in RATES else 1) for c in columns)
+
+
+@dataclass
+class Case:
+    name: str
+    base: "Case | Path"  # what it is compared with; for the first case of a scene its file
+    settings: dict
+    adds_stages: tuple = ()
+    drops_stages: tuple = ()
+    adds_columns: tuple = ()
+    drops_columns: tuple = ()
+    other_bytes: int = 0  # of a particle, beside columns: the share of the deviator that damage leaves
+
+    @property
+    def scene(self):
+        return self.base.scene if isinstance(self.base, Case) else self.base
+
+    @property
+    def all_settings(self):
+        return {**(self.base.all_settings if isinstance(self.base, Case) else {}), **self.settings}
+
+    @property
+    def stages(self):
+        """In the order of the algorithm."""
+        stages = set(self.base.stages if isinstance(self.base, Case) else ()) - set(self.drops_stages)
+        return [s for s in ALGORITHM if s in stages | set(self.adds_stages)]
+
+    @property
+    def columns(self):
+        columns = set(self.base.columns if isinstance(self.base, Case) else ()) - set(self.drops_columns)
+        return columns | set(self.adds_columns)
+
+
+def material(section, **values):
+    """Settings of one section of the material of solid.toml."""
+    return {f"materials.matter.{section}.{key}": value for key, value in values.items()}
+
+
+VON_MISES = material("strength", model="von_mises", yield_stress="100 MPa")
+GRADY_KIPP = material("damage", model="grady_kipp", weibull_m=9.5, weibull_k="1.6e44 1/m^3")
+PORES = material("porosity", model="two_power", initial_distension=3.3242857142857143, elastic_pressure="1 MPa",
+                 transition_pressure="68 MPa", solid_pressure="213 MPa", reference_distension=4.64,
+                 transition_distension=1.90, n1=12, n2=3)
+CRACKS = ("damage", "crack", "crack_rate", "flaw_strain", "flaw_exponent", "flaw_count")
+
+gas = Case("gas", FOLDER / "gas.toml", {"numerics.density": "summation"},
+           adds_stages=("neighbours", "density", "equation of state", "pair rates"), adds_columns=tuple(GAS_COLUMNS))
+gas_continuity = Case("gas, continuity", gas, {"numerics.density": "continuity"},
+                      drops_stages=("density",), adds_stages=("strain rates", "smoothing lengths"),
+                      adds_columns=("density_rate", "velocity_gradient"))
+
+elastic = Case("elastic", FOLDER / "solid.toml", {},
+               adds_stages=("neighbours", "equation of state", "pair rates", "strain rates", "smoothing lengths"),
+               adds_columns=(*GAS_COLUMNS, "density_rate", "velocity_gradient", "deviatoric_stress", "stress_rate"))
+plastic = Case("elastic, strength", elastic, VON_MISES, adds_stages=("strength",), adds_columns=("plastic_strain",))
+brittle = Case("elastic, strength, damage", plastic, GRADY_KIPP, adds_stages=("damage",), adds_columns=CRACKS,
+               other_bytes=8)
+porous = Case("elastic, pores", elastic, {**PORES, **material("porosity", crush_damage="false")},
+              adds_columns=("distension", "stress_factor"))
+crushed = Case("elastic, pores, damage by crushing", porous, material("porosity", crush_damage="true"),
+               adds_stages=("damage",), adds_columns=("damage",), other_bytes=8)
+pumice = Case("elastic, strength, damage, pores", brittle, PORES, adds_columns=("distension", "stress_factor"))
+
+CASES = [
+    gas,
+    Case("gas, mixed precision", gas, {"numerics.precision": "mixed"}),
+    Case("gas, balsara", gas, {"numerics.balsara": "true"}, adds_stages=("shear switch",),
+         adds_columns=("shear_switch", "velocity_gradient")),
+    gas_continuity,
+    Case("gas, continuity, constant h", gas_continuity, {"numerics.smoothing_growth": 1},
+         drops_stages=("smoothing lengths",)),
+    Case("gas, continuity, gradient correction", gas_continuity, {"numerics.gradient_correction": "true"}),
+    elastic,
+    plastic,
+    brittle,
+    porous,
+    crushed,
+    pumice,
+    Case("pumice, balsara", pumice, {"numerics.balsara": "true"}, adds_stages=("shear switch",),
+         adds_columns=("shear_switch",)),
+    Case("pumice, gradient correction", pumice, {"numerics.gradient_correction": "true"}),
+    Case("pumice, mixed precision", pumice, {"numerics.precision": "mixed"}),
+]

@@ -1,0 +1,116 @@
+"""Noh's problem in one, two and three dimensions: shocks of infinite strength into cold gas."""
+import numpy as np
+
+from exact.noh import Noh
+from harness import Bound, Case, l1, linf, relative
+
+ROWS = 12
+NO_NEGATIVE_ENERGY = Bound("negative energy", "relative", 1e-12, why="there is none but for round-off")
+
+
+class NohCase(Case):
+    exact = "Noh (1987): behind the shock density 4^nu, specific energy 1/2, at rest; shock speed 1/3"
+    nu: int
+    reach = 0.05, 0.35  # m: where errors are measured, as by Spheral: without the heated wall and the open end of the gas
+
+    def radial(self, state):
+        """Distance from the wall, and density, speed inwards, pressure and specific energy."""
+        r = np.linalg.norm(state["position"][:, :self.nu], axis=1)
+        inwards = -np.sum(state["position"][:, :self.nu] * state["velocity"][:, :self.nu], axis=1) / r
+        return r, (state["density"], inwards, state["pressure"], state["specific_energy"])
+
+    profile_axis = "r [m]"
+
+    def profiles(self, run):
+        r, values = self.radial(run.final)
+        labels = "density [kg/m^3]", "speed inwards [m/s]", "pressure [Pa]", "specific energy [J/kg]"
+        near = r <= self.reach[1]
+        return [(label, r[near], value[near], exact) for label, value, exact in zip(
+            labels, values, Noh(self.nu).at(r[near], run.final.time))]
+
+    def errors(self, run, resolution):
+        state, noh = run.final, Noh(self.nu)
+        r, values = self.radial(state)
+        k = (self.reach[0] <= r) & (r <= self.reach[1])
+        errors = {}
+        for name, value, exact in zip(("density", "velocity", "pressure", "energy"), values, noh.at(r[k], state.time)):
+            errors[name, "L1"] = l1(value[k], exact, state.volume[k])
+            if self.nu == 1:
+                errors[name, "Linf"] = linf(value[k], exact)
+        inner = (0.05 < r) & (r < 0.15)
+        plateau = np.average(state["density"][inner], weights=state.volume[inner])
+        errors["plateau density", "relative"] = relative(plateau, noh.density)
+        errors["negative energy", "relative"] = max(0, -state["specific_energy"].min() / state["specific_energy"].max())
+        return errors
+
+
+class NohPlanar(NohCase):
+    """Resolution: particles along the gas, 1 m at the start."""
+    name = "noh_planar"
+    title = "Noh's problem, planar, t = 0.6 s"
+    scene = "planar.toml"
+    nu = 1
+    quick = (25, 50, 100)
+    full = (25, 50, 100, 200, 400)
+    boost = "y"
+    shock = "a particle inside the shock, whose width is a number of particles"
+    bounds = (  # Spheral, SPH with the same kernel in one dimension: 0.0538, 0.0245, 0.0181, 0.0106 at 100
+        Bound("density", "L1", {100: 0.0538, 400: 0.019}, 0.85),
+        Bound("velocity", "L1", {100: 0.021, 400: 0.0053}, 0.85),
+        Bound("pressure", "L1", {100: 0.016, 400: 0.0044}, 0.85),
+        Bound("energy", "L1", {100: 0.0069, 400: 0.0018}, 0.85),
+        Bound("density", "Linf", 2.6, why=shock),
+        Bound("velocity", "Linf", 1.1, why=shock),
+        Bound("pressure", "Linf", 0.9, why=shock),
+        Bound("energy", "Linf", 0.4, why=shock),
+        Bound("plateau density", "relative", {50: 0.0036, 100: 0.0009, 400: 0.0009}, why="far below the other errors"),
+        NO_NEGATIVE_ENERGY,
+    )
+
+    def settings(self, resolution):
+        spacing = 1 / (4 * resolution)
+        height = ROWS * spacing
+        return {"resolution.spacing": (spacing, "m"), "bodies.gas.size": (0.25, height, "m"),
+                "boundary.min": (0, -height / 2, "m"), "boundary.max": (2, height / 2, "m")}
+
+
+class NohCylindrical(NohCase):
+    """Resolution: particles along the radius, 1 m at the start."""
+    name = "noh_cylindrical"
+    title = "Noh's problem, cylindrical, t = 0.6 s"
+    scene = "cylindrical.toml"
+    nu = 2
+    quick = (25, 50)
+    full = (25, 50, 100, 200)
+    boost = "there is a wall on every axis"
+    bounds = (
+        Bound("density", "L1", {50: 0.95, 200: 0.12}, 1.2),
+        Bound("velocity", "L1", {50: 0.067, 200: 0.0085}, 1.2),
+        Bound("pressure", "L1", {50: 0.26, 200: 0.033}, 1.2),
+        Bound("energy", "L1", {50: 0.029, 200: 0.0038}, 1.2),
+        Bound("plateau density", "relative", {50: 0.08, 100: 0.05, 200: 0.01}, 1.3),
+        NO_NEGATIVE_ENERGY,
+    )
+
+    def settings(self, resolution):
+        return {"resolution.spacing": (1 / resolution, "m")}
+
+
+class NohSpherical(NohCylindrical):
+    name = "noh_spherical"
+    title = "Noh's problem, spherical, t = 0.6 s"
+    scene = "spherical.toml"
+    nu = 3
+    quick = (10, 15)
+    full = (10, 15, 25, 50)
+    bounds = (  # the shock has run over 2 to 10 particles' worth of gas: orders are those of a start
+        Bound("density", "L1", {15: 18, 50: 6}, why="peaks when the shock begins to be resolved; falls from 15 on"),
+        Bound("velocity", "L1", {15: 0.65, 50: 0.1}, 0.7),
+        Bound("pressure", "L1", {15: 7, 50: 2}, why="as density"),
+        Bound("energy", "L1", {15: 0.4, 50: 0.053}, 0.7),
+        Bound("plateau density", "relative", {15: 0.85, 50: 0.29}, 0.2),
+        NO_NEGATIVE_ENERGY,
+    )
+
+
+CASES = [NohPlanar(), NohCylindrical(), NohSpherical()]
