@@ -30,8 +30,34 @@ bool read_literal(const toml::node& node, Literal& literal) {
   return true;
 }
 
-void flatten(const toml::table& table, const std::string& path, Document& document,
-             std::vector<std::string>& problems) {
+/// What settings never need, and the recursions of the parser and of flatten() could not bear without limit.
+constexpr int most_dots = 100, deepest_table = 32;
+
+void refuse_endless_keys(const std::string& text, const std::string& name) {
+  int line = 1, dots = 0;
+  bool comment = false, blank = true;
+  for (const char c : text) {
+    if (c == '\n') {
+      ++line;
+      dots = 0;
+      comment = false;
+      blank = true;
+      continue;
+    }
+    if (blank && c == '#') comment = true;
+    blank = blank && (c == ' ' || c == '\t');
+    if (c == '.' && !comment && ++dots > most_dots)
+      throw InputError(fmt::format("{}:{}: expected at most {} dots in a line", name, line, most_dots));
+  }
+}
+
+void flatten(const toml::table& table, const std::string& path, Document& document, std::vector<std::string>& problems,
+             int depth = 0) {
+  if (depth > deepest_table) {
+    problems.push_back(fmt::format("{}: {}: expected at most {} tables inside each other", document.file,
+                                   path.substr(0, 40), deepest_table));
+    return;
+  }
   const auto origin_of = [&](const toml::node& node) {
     const int line = static_cast<int>(node.source().begin.line);
     return Origin{fmt::format("{}:{}", document.file, line), line};
@@ -41,12 +67,12 @@ void flatten(const toml::table& table, const std::string& path, Document& docume
     const Origin origin = origin_of(node);
     if (const toml::table* inner = node.as_table()) {
       document.tables[here] = origin;
-      flatten(*inner, here, document, problems);
+      flatten(*inner, here, document, problems, depth + 1);
     } else if (const toml::array* array = node.as_array(); array && !array->empty() && array->is_array_of_tables()) {
       for (std::size_t k = 0; k < array->size(); ++k) {
         const std::string element = fmt::format("{}[{}]", here, k);
         document.tables[element] = origin_of(*array->get(k));
-        flatten(*array->get(k)->as_table(), element, document, problems);
+        flatten(*array->get(k)->as_table(), element, document, problems, depth + 1);
       }
     } else {
       Literal literal;
@@ -79,6 +105,7 @@ std::string resolve_body(const Document& document, const std::string& path) {
 }
 
 Literal parse_literal(const std::string& text) {
+  refuse_endless_keys(text, "--set");
   try {
     const toml::table table = toml::parse("value = " + text);
     Literal literal;
@@ -148,6 +175,7 @@ Document parse_document(const std::string& text, const std::string& name) {
   Document document;
   document.file = name;
   std::vector<std::string> problems;
+  refuse_endless_keys(text, name);
   try {
     flatten(toml::parse(text), "", document, problems);
   } catch (const toml::parse_error& error) {

@@ -201,11 +201,13 @@ std::string nearest_word(std::string_view word, const std::vector<std::string>& 
   std::string best;
   const std::string key = last_key(std::string(word));
   std::size_t least = key.size() < 3 ? 0 : std::max<std::size_t>(1, key.size() / 3) + 1;  // short words resemble all
-  for (const std::string& candidate : candidates)
+  for (const std::string& candidate : candidates) {
+    if (std::max(word.size(), candidate.size()) - std::min(word.size(), candidate.size()) >= least) continue;
     if (const std::size_t d = distance(word, candidate); d < least) {
       least = d;
       best = candidate;
     }
+  }
   return best;
 }
 

@@ -14,22 +14,29 @@ constexpr std::int64_t steps_between_sorts = 200;
 }  // namespace
 
 template <int Dim>
-void neighbours(Simulation<Dim>& sim) {
-  wrap_positions(sim.particles, sim.scene.boundary);
-  const bool sort = sim.clock.step % steps_between_sorts == 0;
-  if (!sort && sim.lists.valid(sim.particles, sim.clock.time - sim.lists_built_at)) return;
-  const std::size_t cluster = cluster_size(sim.scene.numerics.precision);
-  if (sort) {
-    spatial_order(sim.particles, cluster, sim.order);
-    sim.particles.reorder(sim.order);
-    ++sim.sorts;
-  }
-  sim.lists.build(sim.particles,
-                  {kernel_support(sim.scene.numerics.kernel), cluster, steps_ahead * sim.clock.dt, sim.scene.boundary});
+void renew_lists(Simulation<Dim>& sim) {
+  if (sim.lists.valid(sim.particles, sim.clock.time - sim.lists_built_at)) return;
+  const Numerics& numerics = sim.scene.numerics;
+  sim.lists.build(sim.particles, {kernel_support(numerics.kernel), cluster_size(numerics.precision),
+                                  steps_ahead * sim.clock.dt, sim.scene.boundary});
   sim.lists_built_at = sim.clock.time;
   ++sim.list_builds;
 }
 
+template <int Dim>
+void neighbours(Simulation<Dim>& sim) {
+  wrap_positions(sim.particles, sim.scene.boundary);
+  if (sim.clock.step % steps_between_sorts == 0) {
+    spatial_order(sim.particles, cluster_size(sim.scene.numerics.precision), sim.order);
+    sim.particles.reorder(sim.order);
+    sim.lists.invalidate();
+    ++sim.sorts;
+  }
+  renew_lists(sim);
+}
+
+template void renew_lists<2>(Simulation<2>&);
+template void renew_lists<3>(Simulation<3>&);
 template void neighbours<2>(Simulation<2>&);
 template void neighbours<3>(Simulation<3>&);
 

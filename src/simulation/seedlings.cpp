@@ -74,8 +74,11 @@ std::vector<Seedling<Dim>> fill_body(const Scene& scene, std::size_t b, const Ma
         s.x[a] +=
             body.jitter * width *
             (2 * uniform_random(scene.seed, position_key<Dim>(site, width), static_cast<std::uint64_t>(3 + a)) - 1);
-      if (!displacement.empty())
-        s.x[a] += displacement[static_cast<std::size_t>(a)](formula_point<Dim>(body, site, width));
+      if (displacement.empty()) continue;
+      const FormulaPoint point = formula_point<Dim>(body, site, width);
+      const double moved = displacement[static_cast<std::size_t>(a)](point);
+      if (!std::isfinite(moved)) refuse_value(body, "displacement", "a finite number", moved, point);
+      s.x[a] += moved;
     }
     if (!density.empty()) {
       const FormulaPoint point = formula_point<Dim>(body, s.x, width);

@@ -43,5 +43,8 @@ void smoothing_lengths(Simulation<Dim>& sim);
 /// Renews the pair lists if somebody has left its margin, and the order of the particles if it has worn out.
 template <int Dim>
 void neighbours(Simulation<Dim>& sim);
+/// Renews the pair lists alone, if need be: after smoothing lengths have changed within a step.
+template <int Dim>
+void renew_lists(Simulation<Dim>& sim);
 
 }  // namespace ejecta

@@ -42,16 +42,19 @@ TEST(ExpandedStates, TheMixedBandJoinsItsNeighboursWithoutAStep) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> uniform(0, 1);
   for_each_tillotson([&](const std::string& name, const Tillotson& eos) {
-    const auto same = [&](double rho1, double e1, double rho2, double e2) {
+    constexpr double step = 1e-10;
+    double largest = 0;
+    const auto jump = [&](double rho1, double e1, double rho2, double e2) {
       const double p1 = eos.evaluate(rho1, e1).pressure, p2 = eos.evaluate(rho2, e2).pressure;
-      ASSERT_NEAR(p1, p2, 1e-6 * (std::abs(p1) + 0.01 * eos.A)) << name << ' ' << rho1 << ' ' << e1;
+      largest = std::max(largest, std::abs(p1 - p2) / (std::abs(p1) + 0.01 * eos.A));
     };
     for (int k = 0; k < 20000; ++k) {
-      const double eta = 0.01 + 1.49 * uniform(random), e = 3 * eos.E_cv * uniform(random), step = 1e-10;
-      same(eos.rho0 * (1 - step), e, eos.rho0 * (1 + step), e);
+      const double rho = eos.rho0 * (0.01 + 1.49 * uniform(random)), e = 3 * eos.E_cv * uniform(random);
+      jump(eos.rho0 * (1 - step), e, eos.rho0 * (1 + step), e);
       for (const double edge : {0.0, eos.E_iv, eos.E_cv})
-        same(eta * eos.rho0, edge - step * eos.E_cv, eta * eos.rho0, edge + step * eos.E_cv);
+        jump(rho, edge - step * eos.E_cv, rho, edge + step * eos.E_cv);
     }
+    EXPECT_LT(largest, 1e-6) << name;
   });
 }
 

@@ -121,14 +121,15 @@ TEST(StrangeBodies, ParticlesAtOnePlaceMoveAsOne) {
   for (const double distance : {0.0, 1e-15, 1e-9}) {
     const auto sim = start<3>(porous_impact);
     auto& p = sim->particles;
-    p.set_vector(Field::position, place_of(p, 17),
-                 p.vector(Field::position, place_of(p, 200)) + Vec<3>(distance, 0, 0));
+    const std::int32_t one = p.label(Label::id)[p.size() - 1], other = one - 1;  // of the ball, which has no flaws
+    p.set_vector(Field::position, place_of(p, one),
+                 p.vector(Field::position, place_of(p, other)) + Vec<3>(distance, 0, 0));
     begin_from_here(*sim);
     const Outcome outcome = follow(*sim, 100);
     EXPECT_EQ(outcome.error, "");
     EXPECT_LT(std::abs(outcome.conservation.energy), 1e-13);
-    const Vec<3> apart = p.vector(Field::position, place_of(p, 17)) - p.vector(Field::position, place_of(p, 200));
-    EXPECT_LE(apart.norm(), 1.1 * distance);
+    const Vec<3> apart = p.vector(Field::position, place_of(p, one)) - p.vector(Field::position, place_of(p, other));
+    EXPECT_LE(apart.norm(), 20 * distance) << "the flow draws them apart, nothing else; one place stays one place";
   }
 }
 
@@ -146,14 +147,18 @@ shape = "disc"
 radius = "8 mm"
 )";
 
-/// A displacement may put a whole body onto a line or into a point. Senseless, but with finite forces: none.
+/// A displacement may put a whole compressed body onto a line or into a point. Senseless, but finite: particles at one
+/// place do not push each other, those on a line push along it, and energy is kept.
 TEST(StrangeBodies, ABodyFoldedIntoALineOrAPointStaysFinite) {
   for (const char* displacement : {R"(["-x", "0"])", R"(["-x", "-y"])", R"f(["x - abs(x)", "0"])f"}) {
-    const auto sim = start<2>(disc + "[bodies.profile]\ndisplacement = " + displacement + "\n");
+    const auto sim =
+        start<2>(disc + "density = \"2.8 g/cm^3\"\n[bodies.profile]\ndisplacement = " + displacement + "\n");
     const Outcome outcome = follow(*sim, 50);
     EXPECT_EQ(outcome.error, "") << displacement;
-    EXPECT_EQ(outcome.least_energy, 0) << displacement;
-    EXPECT_EQ(top_speed(sim->particles), 0) << "density by continuity: nothing has moved, so nothing is compressed";
+    const Totals now = totals(sim->particles);  // of an energy that is zero at the start
+    EXPECT_LE(std::abs(now.energy()), 1e-13 * now.kinetic) << displacement;
+    EXPECT_LT(outcome.conservation.momentum, 1e-13) << displacement;
+    EXPECT_EQ(top_speed(sim->particles) > 0, std::string(displacement) != R"(["-x", "-y"])") << displacement;
   }
 }
 

@@ -91,6 +91,7 @@ def speed(study, case, axes, quick, workspace, failures):
                     turns[key].append(measure(case, resolution, workspace, {**COMMON, **settings[key]}))
                 except Exception as failure:
                     failures.append(f"{case.name} at {resolution} with {text(settings[key])}: {describe(failure)}")
+                    shutil.rmtree(workspace / f"{case.name}_{resolution}", ignore_errors=True)
                     del turns[key]
             if max((turn[-1].core_seconds for turn in turns.values()), default=SHORT) >= SHORT:
                 break
@@ -124,6 +125,7 @@ def tolerance(case, quick, workspace, failures):
                                                 "numerics.distension_tolerance": tol}, folder)
             except RunFailed as failure:
                 failures.append(f"{case.name} with {solver}, tolerance {tol:g}: {describe(failure)}")
+                shutil.rmtree(folder, ignore_errors=True)
                 del seconds[solver, tol]
                 continue
             seconds[solver, tol].append(run.core_seconds)

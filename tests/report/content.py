@@ -54,9 +54,9 @@ class Report:
                  "one thread. L1 is the mean of |computed - exact| over the particles of the region that the case "
                  "names, weighted by their volume, in units of the quantity. Core-seconds are the wall time of the "
                  "time loop; runs of up to two seconds are done three times and the median counts. The variants of a "
-                 "problem take turns, so that whatever else happens on the machine happens to all of them. A particle-step "
-                 "is one particle advanced by one step. Orders are slopes of least squares through log error against "
-                 "log resolution. `errors.csv` holds a line per error of every run."))
+                 "problem take turns, so that whatever else happens on the machine happens to all of them. A particle-"
+                 "step is one particle advanced by one step. Orders are slopes of least squares through log error "
+                 "against log resolution. `errors.csv` holds a line per error of every run."))
         if meta["failures"]:
             self.add(Text("**What went wrong:**"), Items(meta["failures"]))
         if meta["skipped"]:
@@ -69,16 +69,18 @@ class Report:
         if not panels:
             return
         self.add(Heading("Speed against error"), Text(
-            "Each curve is a ladder of resolutions. Left: what a user pays; right: what the method asks for, whatever "
-            "the machine. The dotted guide is first order in the spacing, the best that shocks allow. Costs are "
-            "compared at equal error: that of the first variant at its second finest resolution, interpolated in the "
-            "others between their own runs (never beyond them: – if the finest one does not get there, \"at most\" if the "
-            "coarsest is better already). Steps need not end at the times of frames here, so that their number is that "
-            "of the time-step factor."))
+            "Each curve is a ladder of resolutions: first against core-seconds, which a user pays, then against "
+            "particle-steps, which the method asks for on any machine. The dotted guide is first order in the spacing, the best that shocks allow. Costs are "
+            "compared at equal error: that of the first variant at its second finest resolution, interpolated in "
+            "the others between their own runs (never beyond them: – if the finest one does not get there, \"at "
+            "most\" if the coarsest is better already). Steps need not end at the times of frames here, so that "
+            "their number is that of the time-step factor."))
         for axis, found in panels:
             self.add(Heading(axis.title, 3), Items(sentences(axis, found)))
-            self.figure(figures.work_precision, axis.name, f"{axis.title}: error against cost", axis,
-                        found)
+            self.figure(figures.work_precision, axis.name, f"{axis.title}: error against core-seconds", axis, found,
+                        CORE_SECONDS)
+            self.figure(figures.work_precision, f"{axis.name}_{PARTICLE_STEPS}",
+                        f"{axis.title}: error against particle-steps", axis, found, PARTICLE_STEPS)
             rows = []
             for study, curves in found:
                 target, comparisons = compare(curves)
@@ -158,7 +160,7 @@ class Report:
             bound = bound_of(self.cases[name], quantity, norm)
             if len(ladder) > 1 and bound and bound.order is not None and all(row["error"] > 0 for row in ladder):
                 panels[name][f"{quantity} {norm}"] = ladder
-        first = first_of_families(panels, self.cases)
-        if first:
-            self.figure(figures.convergence, "convergence", "Error against resolution",
-                        [(name, panels[name]) for name in first])
+        shown, a_figure = first_of_families(panels, self.cases), 12
+        for k, start in enumerate(range(0, len(shown), a_figure), 1):
+            self.figure(figures.convergence, f"convergence_{k}", "Error against resolution",
+                        [(name, panels[name]) for name in shown[start:start + a_figure]])

@@ -54,7 +54,8 @@ def logarithmic(axes, *which):
         getattr(axes, f"set_{name}scale")("log")
         low, high = getattr(axes, f"get_{name}lim")()
         if high / low < 1000:  # few decades: label more than powers of ten
-            axis.set_major_locator(LogLocator(subs=(1, 2, 5) if high / low > 8 else (1, 1.5, 2, 3, 4, 5, 7)))
+            fine = (1, 2, 5) if high / low > 6 else (1, 2, 3, 5) if high / low > 3 else (1, 1.5, 2, 2.5, 3, 4, 5, 7)
+            axis.set_major_locator(LogLocator(subs=fine))
             axis.set_major_formatter(FuncFormatter(tick))
             axis.set_minor_formatter(NullFormatter())
 
@@ -62,7 +63,7 @@ def logarithmic(axes, *which):
 def tick(value, _):
     if 1e-3 <= value < 1e4:
         return f"{value:g}"
-    mantissa, power = f"{value:.0e}".split("e")
+    mantissa, power = f"{value:.1e}".replace(".0e", "e").split("e")
     return ("" if mantissa == "1" else rf"{mantissa}$\cdot$") + f"$10^{{{int(power)}}}$"
 
 
@@ -80,40 +81,39 @@ def growth(rows):
     return math.log(last[PARTICLE_STEPS] / first[PARTICLE_STEPS]) / math.log(last["resolution"] / first["resolution"])
 
 
-def work_precision(file, axis, panels, caption):
-    """A row per problem, error against core-seconds and against particle-steps. panels: [(study, curves)]."""
-    figure, axes = grid(2 * len(panels), 2)
-    for line, (study, curves) in enumerate(panels):
-        for column, cost in enumerate((CORE_SECONDS, PARTICLE_STEPS)):
-            ax = axes[2 * line + column]
-            points = [(row[cost], row["error"]) for rows in curves.values() for row in rows]
-            for label, rows in curves.items():
-                k = list(axis.variants).index(label)
-                ax.plot([row[cost] for row in rows], [row["error"] for row in rows], color=COLOURS[k],
-                        marker=MARKERS[k], markerfacecolor="none" if k else COLOURS[k], linewidth=1.3, label=label)
-            guide(ax, -1 / growth(next(iter(curves.values()))), "first order in the spacing", *zip(*points))
-            logarithmic(ax)
-            ax.set(title=study.title, xlabel=COST_LABELS[cost])
-            if column == 0:
-                ax.set_ylabel(f"{study.quantity} {study.norm} error [{study.unit}]")
-    most = max(range(len(panels)), key=lambda line: len(panels[line][1]))
-    save(figure, file, axis.title, caption, legend=axes[2 * most])
+def work_precision(file, axis, panels, cost, caption):
+    """A panel per problem, error against cost. panels: [(study, curves)]."""
+    figure, axes = grid(len(panels), 3, (3.8, 3.1) if len(panels) > 1 else (6, 4))
+    for ax, (study, curves) in zip(axes, panels):
+        points = [(row[cost], row["error"]) for rows in curves.values() for row in rows]
+        for label, rows in curves.items():
+            k = list(axis.variants).index(label)
+            ax.plot([row[cost] for row in rows], [row["error"] for row in rows], color=COLOURS[k],
+                    marker=MARKERS[k], markerfacecolor="none" if k else COLOURS[k], linewidth=1.3, label=label)
+        guide(ax, -1 / growth(next(iter(curves.values()))), "first order in the spacing", *zip(*points))
+        logarithmic(ax)
+        ax.set(title=study.title, xlabel=COST_LABELS[cost],
+               ylabel=f"{study.quantity} {study.norm} error [{study.unit}]")
+    most = max(range(len(panels)), key=lambda k: len(panels[k][1]))
+    save(figure, file, axis.title, caption, legend=axes[most])
 
 
 def convergence(file, panels, caption):
     """Error against resolution of each case. panels: [(case name, {label: rows})]."""
-    figure, axes = grid(len(panels), 3, (3.4, 2.9))
+    figure, axes = grid(len(panels), 4, (3.1, 2.8))
     for ax, (name, curves) in zip(axes, panels):
+        lowest = 1
         for k, (label, rows) in enumerate(curves.items()):
             x, y = (np.array([row[key] for row in rows]) for key in ("resolution", "error"))
+            lowest = min(lowest, (y / y[0]).min(), (x[0] / x[-1]) ** 2)
             ax.plot(x, y / y[0], color=COLOURS[k % 6], marker=MARKERS[k % 6], linewidth=1.3,
                     label=f"{label} ({rows[-1]['fitted_order']:.2f})")
         ax.plot(x, x[0] / x, ":", x, (x[0] / x) ** 2, "--", color="0.5", linewidth=1, zorder=0)
-        low, high = ax.get_ylim()
-        ax.set_ylim(low / 4, high)  # room for the legend
+        ax.set_ylim(0.8 * lowest ** (1 + 0.25 * len(curves)), ax.get_ylim()[1])  # room for the legend
         logarithmic(ax)
         ax.set_xticks(x, [str(resolution) for resolution in x])
-        ax.set(title=name, xlabel="resolution", ylabel="error / that of the coarsest run [1]")
+        ax.minorticks_off()
+        ax.set(title=name, xlabel="resolution", ylabel="error / coarsest [1]")
         ax.legend(fontsize=7, loc="lower left")
     save(figure, file, "Error against resolution; in brackets the order; dotted: first, dashed: second order", caption)
 

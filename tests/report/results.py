@@ -85,6 +85,7 @@ class Comparison:
     label: str
     rows: list
     error: float           # at the finest resolution
+    relative_error: float  # to that of the first variant, at the finest resolution of both
     order: float           # fitted to the ladder
     cost: dict             # core-seconds and particle-steps at the finest resolution
     at_equal_error: dict   # the same to reach the target, relative to the first variant; nan: not reached
@@ -100,9 +101,12 @@ def compare(curves):
     """Target error and comparisons. The target is the error of the first variant at its second finest resolution."""
     reference = next(iter(curves.values()))
     target = reference[max(len(reference) - 2, 0)]["error"]
+    of_reference = {row["resolution"]: row["error"] for row in reference}
     return target, [
-        Comparison(label, rows, rows[-1]["error"], rows[-1]["fitted_order"],
+        Comparison(label, rows, rows[-1]["error"],
+                   next((row["error"] / of_reference[row["resolution"]] for row in reversed(rows)
+                         if row["resolution"] in of_reference), math.nan), rows[-1]["fitted_order"],
                    {cost: rows[-1][cost] for cost in (CORE_SECONDS, PARTICLE_STEPS)},
                    {cost: cost_at(rows, target, cost) / cost_at(reference, target, cost)
-                    for cost in (CORE_SECONDS, PARTICLE_STEPS)}, at_once(rows, target))
+                    for cost in (CORE_SECONDS, PARTICLE_STEPS)}, rows is not reference and at_once(rows, target))
         for label, rows in curves.items()]

@@ -22,13 +22,13 @@ def sentences(axis, found):
                 missed.append(study.title)
             else:
                 ratios.append(f"{mine.ratio(CORE_SECONDS)} ({study.title})")
-            errors.append(f"{mine.error / curves[reference][-1]['error']:.2f} ({study.title})")
+            errors.append(f"{mine.relative_error:.2f} ({study.title})")
         if not errors:
             continue
         text = f"**{label}** against **{reference}**: "
         text += f"at equal error the core-seconds times {', '.join(ratios)}; " if ratios else ""
         text += f"does not reach that error in {', '.join(missed)}; " if missed else ""
-        texts.append(text + f"at the finest resolution the error times {', '.join(errors)}.")
+        texts.append(text + f"at the finest resolution of both the error times {', '.join(errors)}.")
     return texts
 
 

@@ -12,7 +12,7 @@ from PIL import Image
 
 REPORT = Path(__file__).resolve().with_name("report.py")
 TABLES = ["errors", "precision_table", "solver", "solver_table", "verification_table"]
-FIGURES = ["precision", "solver", "convergence", "profiles_sod"]
+FIGURES = ["precision", "precision_particle_steps", "solver", "convergence_1", "profiles_sod"]
 
 
 def table(file):

@@ -39,7 +39,7 @@ STUDIES = (
     Study("sod", "Sod's shock tube", "density", "L1", "kg/m^3", (50, 100, 200, 400), (25, 50, 100)),
     Study("noh_planar", "Noh, planar", "density", "L1", "kg/m^3", (25, 50, 100, 200), (25, 50, 100)),
     Study("noh_cylindrical", "Noh, cylindrical", "density", "L1", "kg/m^3", (25, 50, 100), (20, 30, 40)),
-    Study("sedov_cylindrical", "Sedov, cylindrical", "density", "L1", "kg/m^3", (25, 50, 100), (15, 25, 35)),
+    Study("sedov_cylindrical", "Sedov, cylindrical", "density", "L1", "kg/m^3", (20, 40, 80), (15, 25, 35)),
     Study("sedov_spherical", "Sedov, spherical", "density", "L1", "kg/m^3", (10, 15, 20), (10, 12, 15)),
     Study("compaction_shock_458", "Compaction shock", "density", "L1", "kg/m^3", (100, 200, 500), (50, 100, 200)),
 )

@@ -1,5 +1,5 @@
 """Errors of the verification cases beside what their tests ask for."""
-from collections import defaultdict
+from collections import Counter, defaultdict
 
 from page import show
 
@@ -26,7 +26,7 @@ def asked(bound, ladder):
     else:
         limits = [f"<= {show(float(bound.limits[row['resolution']]))} at {row['resolution']}" for row in ladder
                   if row["resolution"] in bound.limits]
-    return ", ".join(limits + ([] if bound.order is None else [f"order >= {bound.order}"])) or "nothing here"
+    return ", ".join(limits + ([] if bound.order is None else [f"order >= {bound.order}"])) or "none at these resolutions"
 
 
 MANY = 6  # a folder with more cases than this is a family
@@ -34,10 +34,10 @@ MANY = 6  # a folder with more cases than this is a family
 
 def first_of_families(names, cases):
     """All names, but of a folder with many of them only the first."""
-    folders = defaultdict(list)
+    sizes, folders = Counter(case.folder for case in cases.values()), defaultdict(list)
     for name in names:
         folders[cases[name].folder].append(name)
-    return [name for family in folders.values() for name in (family if len(family) <= MANY else family[:1])]
+    return [name for folder, family in folders.items() for name in (family if sizes[folder] <= MANY else family[:1])]
 
 
 def worst_of_families(lines, cases):

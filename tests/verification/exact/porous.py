@@ -108,6 +108,32 @@ class PorousBody:
         """Behind the precursor, a jump to P_e at constant distension."""
         return self.shock_to(self.rest, self.curve.elastic, self.curve.alpha0)
 
+    def rate_form(self, density, energy, substeps=8):
+        """Distension along a path of states, piecewise straight, by its rate (Jutzi, Benz & Michel 2008):
+        d(alpha)/dt = d(alpha)/dP [alpha dP_s/drho_s drho/dt + dP_s/de de/dt] / (alpha + d(alpha)/dP (P - rho
+        dP_s/drho_s)) on the curve, never positive; 0 below it. Runge-Kutta of fourth order from alpha0 on."""
+        alpha, result = self.curve.alpha0, [self.curve.alpha0]
+        for rho, e, d_rho, d_e in zip(density, energy, np.diff(density), np.diff(energy)):
+            rate = lambda share, a: self._crush_rate(rho + share * d_rho, e + share * d_e, a, d_rho, d_e)
+            step = 1 / substeps
+            for share in np.arange(substeps) * step:
+                k1 = rate(share, alpha)
+                k2 = rate(share + step / 2, alpha + step / 2 * k1)
+                k3 = rate(share + step / 2, alpha + step / 2 * k2)
+                k4 = rate(share + step, alpha + step * k3)
+                alpha = max(1.0, alpha + step / 6 * (k1 + 2 * k2 + 2 * k3 + k4))
+            result.append(alpha)
+        return np.array(result)
+
+    def _crush_rate(self, rho, e, alpha, d_rho, d_e):
+        pressure = self.eos.pressure(alpha * rho, e) / alpha
+        if self.curve.alpha(pressure) > alpha:
+            return 0.0
+        if pressure >= self.curve.solid:
+            return 1 - alpha
+        slope, (by_rho, by_e) = self.curve.slope(pressure), self.eos.slopes(alpha * rho, e)
+        return min(0.0, slope * (alpha * by_rho * d_rho + by_e * d_e) / (alpha + slope * (pressure - rho * by_rho)))
+
     def waves(self, speed):
         """[(speed of the wave, state behind it), ...] from the foremost to the state at a wall that runs in with this
         speed: an elastic precursor and a compaction shock, or a shock alone if it would overtake the precursor."""
@@ -135,7 +161,7 @@ def wave_speed(ahead, behind):
 
 
 def wall_profiles(body, waves, speed, state):
-    """[(label, x, computed, exact), ...] of a bar that came from the right at `speed` and met a wall (x = 0) at t = 0."""
+    """[(label, x, computed, exact), ...] of a bar that came from the right at `speed`; its end met x = 0 at time 0."""
     x = state["position"][:, 0]
     behind = [body.rest, *(matter for _, matter in waves)]
     passed = sum(x < (wave - speed) * state.time for wave, _ in waves)

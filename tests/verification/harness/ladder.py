@@ -61,7 +61,7 @@ def measure(case, resolution, workspace, settings=None, threads=1, keep=False):
 def rows(case, measurements):
     """A row per quantity, norm and resolution."""
     result = []
-    for key in measurements[0].errors:
+    for key in measurements[0].errors if measurements else ():
         for coarse, m in zip([None, *measurements], measurements):
             numerics, error = m.scene["numerics"], m.errors[key]
             result.append(Row(

@@ -6,6 +6,7 @@ from pathlib import Path
 from .invariance import check_invariances
 from .ladder import measure
 from .norms import order
+from .run import RunFailed
 
 
 def verify(case, resolutions, settings=None, threads=1, invariances=True, keep=None):
@@ -14,10 +15,15 @@ def verify(case, resolutions, settings=None, threads=1, invariances=True, keep=N
     case.check_exact()
     with tempfile.TemporaryDirectory(prefix=f"ejecta_{case.name}_") as temporary:
         workspace = Path(keep or temporary)
-        measurements = [measure(case, r, workspace, settings, threads, bool(keep)) for r in resolutions]
-        complaints = judge_errors(case, measurements) + judge_conservation(case, measurements)
-        if invariances:
-            complaints += check_invariances(case, resolutions[0], measurements[0], workspace, settings)
+        measurements, complaints = [], []
+        try:
+            for r in resolutions:
+                measurements.append(measure(case, r, workspace, settings, threads, bool(keep)))
+            complaints = judge_errors(case, measurements) + judge_conservation(case, measurements)
+            if invariances:
+                complaints += check_invariances(case, resolutions[0], measurements[0], workspace, settings)
+        except RunFailed as failure:
+            complaints.append(str(failure))
     print("\n".join(f"FAILED {case.name}: {c}" for c in complaints) or f"passed {case.name}", flush=True)
     return measurements, complaints
 

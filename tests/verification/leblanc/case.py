@@ -18,12 +18,12 @@ class LeBlanc(Case):
     full = (120, 240, 480, 1002)
     boost = "y"
     bounds = (
-        Bound("density", "L1", {120: 0.01, 240: 0.0076, 480: 0.0055}, 0.4, why="the foot of the rarefaction"),
-        Bound("velocity", "L1", {120: 0.029, 240: 0.0175, 480: 0.014}, 0.5),
-        Bound("pressure", "L1", {120: 4.7e-4, 240: 3.1e-4, 480: 2.4e-4}, 0.4),
-        Bound("logarithm of density", "L1", {120: 0.145, 240: 0.11, 480: 0.06}, 0.5),
-        Bound("shock position", "relative", {120: 0.046, 240: 0.02, 480: 0.02, 1002: 0.02},
-              why="passes through zero near 240; it depends on the ratio of the spacings"),
+        Bound("density", "L1", {120: 0.01, 240: 0.0076, 480: 0.0053, 1002: 0.0049}, 0.3, why="the foot of the rarefaction"),
+        Bound("velocity", "L1", {120: 0.029, 240: 0.0175, 480: 0.0138, 1002: 0.0107}, 0.4),
+        Bound("pressure", "L1", {120: 4.7e-4, 240: 3.1e-4, 480: 2.3e-4, 1002: 1.85e-4}, 0.4),
+        Bound("logarithm of density", "L1", {120: 0.145, 240: 0.11, 480: 0.062, 1002: 0.058}, 0.4),
+        Bound("shock position", "relative", {120: 0.046, 240: 0.0065, 480: 0.0085, 1002: 0.0075},
+              why="below 2 % at 1000, as it should be, but it depends on the ratio of the spacings"),
         Bound("negative energy", "relative", 1e-12, why="there is none"),
     )
 
@@ -45,7 +45,8 @@ class LeBlanc(Case):
         spacing = 4 * 4.5 / resolution
         place = fall(*binned(x, state["pressure"], 2 * spacing), tube.pressure / 2)
         errors["shock position", "relative"] = relative(place, tube.shock_speed() * state.time)
-        errors["negative energy", "relative"] = max(0, -state["specific_energy"].min() / state["specific_energy"].max())
+        energy = state["specific_energy"]
+        errors["negative energy", "relative"] = max(0, -energy.min() / np.abs(energy).max())
         return errors
 
     def check_exact(self):

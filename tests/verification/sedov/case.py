@@ -24,7 +24,8 @@ class SedovCase(Case):
         place = fall(*binned(r, state["pressure"], 1 / resolution), blast.at(0.999999 * front, state.time)[2] / 2)
         errors["shock radius", "relative"] = relative(place, front)
         errors["peak density", "relative"] = relative(density.max(), 4)
-        errors["negative energy", "relative"] = max(0, -state["specific_energy"].min() / state["specific_energy"].max())
+        energy = state["specific_energy"]
+        errors["negative energy", "relative"] = max(0, -energy.min() / np.abs(energy).max())
         return errors
 
     profile_axis = "r [m]"
@@ -76,7 +77,14 @@ class SedovSpherical(SedovCylindrical):
     quick = (8, 12, 16)
     full = (10, 20, 40)
     boost = "there is a wall on every axis"
-    bounds = ()
+    bounds = (
+        Bound("density", "L1", {16: 0.25, 20: 0.21, 40: 0.12}, 0.6),
+        Bound("velocity", "L1", {16: 0.115, 20: 0.1, 40: 0.05}, 0.3),
+        Bound("pressure", "L1", {16: 0.075, 20: 0.057, 40: 0.03}, 0.75),
+        Bound("shock radius", "relative", {16: 0.058, 20: 0.033, 40: 0.0063}, 0.9),
+        Bound("peak density", "relative", {16: 0.55, 20: 0.48, 40: 0.31}, 0.3),
+        NO_NEGATIVE_ENERGY,
+    )
 
 
 CASES = [SedovCylindrical(), SedovSpherical()]

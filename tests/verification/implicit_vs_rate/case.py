@@ -1,0 +1,51 @@
+"""Two ways to the distension: the root that the program finds in every step, and the rate equation integrated finely."""
+import numpy as np
+
+from exact.porous import PorousBody
+from harness import Bound, Case
+
+FIELDS = "density", "specific_energy", "distension", "pressure"
+FIRST, LAST = 0.014, 0.0282  # m; where the first plate hits
+
+
+class ImplicitVsRate(Case):
+    """Resolution: steps in the 50 us. A state is evaluated where the predictor puts it, and its path followed where the
+    corrector does: second order."""
+    name = "implicit_vs_rate"
+    title = "pumice crushed, released and crushed again: alpha(P) as a root and by its rate"
+    exact = "rate form of Jutzi, Benz & Michel (2008) along each particle's own path, Runge-Kutta with 8 parts of a step"
+    quick = (1200,)
+    full = (1200, 2400, 4800)
+    boost, boost_speed = "y", 100.0
+    mixed_margin = "the roots are found in double precision"
+    bounds = ()
+
+    def settings(self, resolution):
+        return {"output.snapshots": resolution}
+
+    def errors(self, run, resolution):
+        body, (density, energy, alpha, pressure), steps = PorousBody.of(run.scene, "pumice"), *self.paths(run)
+        by_rate = np.array([body.rate_form(*path) for path in zip(density.T, energy.T)]).T
+        on_curve = np.abs(alpha - body.curve.alpha(pressure))
+        change, next_step = np.diff(alpha, axis=0), (np.diff(steps) == 1)[:, None]
+        crushed = next_step & (change < -1e-9) & (alpha[1:] > 1)
+        released = next_step & (np.diff(pressure, axis=0) < 0) & ~crushed & (alpha[1:] < body.curve.alpha0)
+        print(f"{crushed.sum()} particle-steps of crushing, {released.sum()} of release")
+        return {("alpha on the way", "rate form"): float(np.abs(by_rate - alpha).max()),
+                ("alpha after the shocks", "rate form"): float(np.abs(by_rate[-1] - alpha[-1]).max()),
+                ("alpha while crushed", "curve"): float(on_curve[1:][crushed].max()),
+                ("alpha while released", "change"): float(np.abs(change[released]).max()),
+                ("alpha", "growth"): float(max(change.max(), 0))}
+
+    def paths(self, run):
+        """FIELDS after every snapshot (rows) for the particles where the first plate hits (columns); numbers of steps."""
+        first = run.states[0]
+        x, y = first["position"].T
+        kept = (FIRST < x) & (x < LAST) & (np.abs(y - y.min()) < 1e-4)
+        eos, curve = PorousBody.of(run.scene, "pumice").eos, PorousBody.of(run.scene, "pumice").curve
+        start = eos.density / curve.alpha0, 0.0, curve.alpha0, 0.0
+        return [np.vstack([np.full(kept.sum(), value), [state[name][kept] for state in run.states]])
+                for name, value in zip(FIELDS, start)], np.array([0] + [state.step for state in run.states])
+
+
+CASES = [ImplicitVsRate()]
