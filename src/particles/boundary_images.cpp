@@ -40,9 +40,45 @@ void make_images(const Particles<Dim>& particles, const Boundary& boundary, doub
   }
 }
 
+namespace {
+
+/// Components of a vector or deviator that change sign in a mirror across an axis: its own, and the shears that hold
+/// it.
+template <int Dim>
+std::vector<int> odd_components(Shape shape, int axis) {
+  if (shape == Shape::vector) return {axis};
+  constexpr std::array<std::array<int, 2>, 3> shears{{{2, 3}, {2, 4}, {3, 4}}};  // order: base/types.hpp
+  if (Dim == 2) return {2};
+  return {shears[static_cast<std::size_t>(axis)].begin(), shears[static_cast<std::size_t>(axis)].end()};
+}
+
+/// Puts particle i in the place and state of its mirror image at a face. That is the same state of the same system, so
+/// energy and the momentum along the wall do not notice.
+template <int Dim>
+void mirror(Particles<Dim>& particles, std::size_t i, int axis, double face) {
+  double& x = particles.column(Field::position, axis)[i];
+  x = 2 * face - x;
+  for (Field f : {Field::velocity, Field::acceleration, Field::deviatoric_stress, Field::stress_rate}) {
+    if (!particles.has(f)) continue;
+    for (int k : odd_components<Dim>(info(f).shape, axis)) {
+      particles.column(f, k)[i] *= -1;
+      if (info(f).role == Role::rate) particles.previous(f, k)[i] *= -1;
+    }
+  }
+}
+
+}  // namespace
+
 template <int Dim>
 void wrap_positions(Particles<Dim>& particles, const Boundary& boundary) {
   for (int a = 0; a < Dim; ++a) {
+    if (boundary.kind[a] == BoundaryKind::reflecting) {
+      const auto x = particles.column(Field::position, a);
+      for (std::size_t i = 0; i < x.size(); ++i) {
+        if (x[i] < boundary.min[a]) mirror(particles, i, a, boundary.min[a]);
+        if (x[i] > boundary.max[a]) mirror(particles, i, a, boundary.max[a]);
+      }
+    }
     if (boundary.kind[a] != BoundaryKind::periodic) continue;
     const double low = boundary.min[a], length = boundary.max[a] - low;
     for (double& x : particles.column(Field::position, a)) {

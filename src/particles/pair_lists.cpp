@@ -63,9 +63,13 @@ void PairLists<Dim>::make_points(const Particles<Dim>& particles, const Settings
   });
   images_.clear();
   if (!bounded(settings.boundary)) return;
-  double reach = 0;
-  for (const Point& p : points_) reach = std::max(reach, p.support + 2 * p.margin);
-  make_images(particles, settings.boundary, reach, images_);
+  // A pair may be as far apart as the widest reach of the one and the widest margin of the other.
+  double reach = 0, margin = 0;
+  for (const Point& p : points_) {
+    reach = std::max(reach, p.support + p.margin);
+    margin = std::max(margin, p.margin);
+  }
+  make_images(particles, settings.boundary, reach + margin, images_);
   for (const Image& image : images_) {
     Point p = points_[image.source];
     for (int a = 0; a < Dim; ++a) p.x[a] = image_position(settings.boundary, image, a, p.x[a]);

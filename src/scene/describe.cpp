@@ -39,7 +39,7 @@ void describe(Describer& d, Numerics& n) {
   d.choice("density", n.density, "continuity for solids; summation for gases only");
   d.number("nodes_per_h", n.nodes_per_h, "1", between(1, 4), "particles per smoothing length");
   d.number("smoothing_growth", n.smoothing_growth, "1", at_least(1),
-           "largest h relative to its initial value; 1: h constant");
+           "of solids: largest h relative to that of the lattice; 1: h constant. A gas may widen it 20 times");
   d.flag("gradient_correction", n.gradient_correction, "velocity gradients exact for linear fields");
   d.flag("balsara", n.balsara, "shear switch on the viscosity");
   d.number("viscosity_alpha", n.viscosity_alpha, "1", non_negative, "linear coefficient of Monaghan's viscosity");

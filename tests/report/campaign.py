@@ -6,6 +6,7 @@
 """
 import csv
 import dataclasses
+import re
 import shutil
 import subprocess
 import sys
@@ -25,9 +26,11 @@ def log(text):
 
 
 def describe(failure):
-    """The program's own words, or what went wrong in the evaluation; the last line says it."""
-    kind = "" if isinstance(failure, RunFailed) else f"{type(failure).__name__}: "
-    return kind + (str(failure).strip().splitlines() or [""])[-1]
+    """The line of the program's log that is an error, or what went wrong in the evaluation."""
+    if not isinstance(failure, RunFailed):
+        return f"{type(failure).__name__}: {failure}"
+    words = re.search(r"^[\d:]+ E (.*)$", str(failure), re.MULTILINE)
+    return words[1] if words else str(failure).splitlines()[-1]
 
 
 def write_csv(file, table):
@@ -163,7 +166,8 @@ def run_campaign(options, parts, cases, workspace, meta):
     for study in STUDIES:
         if axes and study.case in by_name:
             try:
-                table += speed(study, by_name[study.case], axes, options.quick, workspace, failures)
+                wanted = [axis for axis in axes if axis.name not in study.without]
+                table += speed(study, by_name[study.case], wanted, options.quick, workspace, failures)
             except Exception as failure:
                 failures.append(f"{study.case}: {describe(failure)}")
     if table:

@@ -70,11 +70,11 @@ class Report:
             return
         self.add(Heading("Speed against error"), Text(
             "Each curve is a ladder of resolutions: first against core-seconds, which a user pays, then against "
-            "particle-steps, which the method asks for on any machine. The dotted guide is first order in the spacing, the best that shocks allow. Costs are "
-            "compared at equal error: that of the first variant at its second finest resolution, interpolated in "
-            "the others between their own runs (never beyond them: – if the finest one does not get there, \"at "
-            "most\" if the coarsest is better already). Steps need not end at the times of frames here, so that "
-            "their number is that of the time-step factor."))
+            "particle-steps, which the method asks for on any machine. The dotted guide is first order in the spacing, "
+            "the best that shocks allow. Costs are compared at equal error: that of the first variant at its second "
+            "finest resolution, interpolated in the others between their own runs (never beyond them: – if the finest "
+            "one does not get there, \"at most\" if the coarsest is better already). Steps need not end at the times "
+            "of frames here, so that their number is that of the time-step factor."))
         for axis, found in panels:
             self.add(Heading(axis.title, 3), Items(sentences(axis, found)))
             self.figure(figures.work_precision, axis.name, f"{axis.title}: error against core-seconds", axis, found,

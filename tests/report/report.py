@@ -79,8 +79,8 @@ def main():
     options = parser.parse_args()
     options.words = [f"--verify {options.verify}", *(["--quick"] if options.quick else []),
                      *([f"--only {options.only}"] if options.only else [])]
-    options.out.mkdir(parents=True, exist_ok=True)
     parts, cases = chosen(options.only)
+    options.out.mkdir(parents=True, exist_ok=True)
     if not options.draw:
         run(options, parts, cases)
     results = Results.read(options.out)

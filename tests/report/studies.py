@@ -12,6 +12,7 @@ class Study:
     unit: str
     ladder: tuple
     quick: tuple
+    without: tuple = ()  # names of axes that make no sense for it
 
 
 @dataclass(frozen=True)
@@ -37,7 +38,8 @@ class ToleranceStudy:
 
 STUDIES = (
     Study("sod", "Sod's shock tube", "density", "L1", "kg/m^3", (50, 100, 200, 400), (25, 50, 100)),
-    Study("noh_planar", "Noh, planar", "density", "L1", "kg/m^3", (25, 50, 100, 200), (25, 50, 100)),
+    Study("noh_planar", "Noh, planar", "density", "L1", "kg/m^3", (25, 50, 100, 200), (25, 50, 100),
+          without=("correction",)),  # the scene leaves the density at the start to summation
     Study("noh_cylindrical", "Noh, cylindrical", "density", "L1", "kg/m^3", (25, 50, 100), (20, 30, 40)),
     Study("sedov_cylindrical", "Sedov, cylindrical", "density", "L1", "kg/m^3", (20, 40, 80), (15, 25, 35)),
     Study("sedov_spherical", "Sedov, spherical", "density", "L1", "kg/m^3", (10, 15, 20), (10, 12, 15)),

@@ -26,7 +26,8 @@ def asked(bound, ladder):
     else:
         limits = [f"<= {show(float(bound.limits[row['resolution']]))} at {row['resolution']}" for row in ladder
                   if row["resolution"] in bound.limits]
-    return ", ".join(limits + ([] if bound.order is None else [f"order >= {bound.order}"])) or "none at these resolutions"
+    orders = [] if bound.order is None else [f"order >= {bound.order}"]
+    return ", ".join(limits + orders) or "none at these resolutions"
 
 
 MANY = 6  # a folder with more cases than this is a family

@@ -68,5 +68,28 @@ TEST(BoundaryImages, LeaversOfAPeriodicBoxComeBackIn) {
   EXPECT_EQ(p.vector(Field::position, 2), Vec<2>(0, 0.5));
 }
 
+TEST(BoundaryImages, WhatCrossedAReflectingFaceComesBackAsItsMirrorImage) {
+  const Boundary box{{BoundaryKind::open, BoundaryKind::reflecting, BoundaryKind::open}, {0, 0, 0}, {1, 1, 1}};
+  Particles<3> p;
+  p.allocate(2, std::array{Field::deviatoric_stress});
+  p.set_vector(Field::position, 0, Vec<3>(-0.25, -0.25, 0.5));
+  p.set_vector(Field::position, 1, Vec<3>(0.5, 1.25, 0.5));
+  for (std::size_t i = 0; i < 2; ++i) {
+    p.set_vector(Field::velocity, i, Vec<3>(1, 2, 3));
+    for (int a = 0; a < 3; ++a) p.previous(Field::acceleration, a)[i] = 1 + a;
+    for (int k = 0; k < 5; ++k) p.column(Field::deviatoric_stress, k)[i] = 1 + k;  // xx, yy, xy, xz, yz
+  }
+  wrap_positions(p, box);
+  EXPECT_EQ(p.vector(Field::position, 0), Vec<3>(-0.25, 0.25, 0.5));
+  EXPECT_EQ(p.vector(Field::position, 1), Vec<3>(0.5, 0.75, 0.5));
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(p.vector(Field::velocity, i), Vec<3>(1, -2, 3));
+    EXPECT_EQ(p.previous(Field::acceleration, 1)[i], -2);
+    const std::array<double, 5> mirrored{1, 2, -3, 4, -5};
+    for (int k = 0; k < 5; ++k)
+      EXPECT_EQ(p.column(Field::deviatoric_stress, k)[i], mirrored[static_cast<std::size_t>(k)]);
+  }
+}
+
 }  // namespace
 }  // namespace ejecta

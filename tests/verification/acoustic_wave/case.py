@@ -29,7 +29,7 @@ class AcousticWave(Case):
                 "boundary.min": (0, -height / 2, "m"), "boundary.max": (1, height / 2, "m")}
 
     def errors(self, run, resolution):
-        """Errors of density and velocity in units of their amplitudes, and phase and amplitude of its first harmonic."""
+        """Of density and velocity in units of their amplitudes; phase and amplitude of the first harmonic."""
         state = run.final
         x, v = state["position"][:, 0], state["velocity"][:, 0] / AMPLITUDE
         rho = (state["density"] / np.mean(state["density"]) - 1) / AMPLITUDE

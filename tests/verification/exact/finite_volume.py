@@ -1,7 +1,7 @@
 """Gas dynamics in one dimension by a Godunov scheme, for problems without a closed solution.
 
-MUSCL-Hancock (Toro 2009, section 14.4) with van Leer's limiter on density, velocity and pressure, and the HLLC solver with
-Davis' wave speeds (sections 10.4, 10.5), between reflecting walls.
+MUSCL-Hancock (Toro 2009, section 14.4) with van Leer's limiter on density, velocity and pressure, and the HLLC solver
+with Davis' wave speeds (sections 10.4, 10.5), between reflecting walls.
 """
 from functools import lru_cache
 

@@ -1,10 +1,10 @@
-"""Blast wave of a point explosion in cold gas (Sedov 1959, Similarity and Dimensional Methods in Mechanics, chapter 4)."""
+"""Blast wave of a point explosion in cold gas (Sedov 1959, Similarity and Dimensional Methods in Mechanics, ch. 4)."""
 import numpy as np
 from scipy.integrate import quad, solve_ivp
 
 
 class Sedov:
-    """Energy [J, per metre if nu = 2] in gas of unit density. Plane (counting both sides), cylinder, sphere: nu = 1, 2, 3.
+    """Energy [J, per metre if nu = 2] in gas of unit density. Plane (both sides count), cylinder, sphere: nu = 1, 2, 3.
 
     With R ~ t^(2/(nu+2)) and u = R' f(x), rho = g(x), p = R'^2 h(x), x = r/R, the equations of gas dynamics become
       (f - x) g' + g f' + (nu - 1) g f / x = 0,

@@ -16,7 +16,7 @@ class Gresho(Case):
         Bound("velocity", "L1", {64: 0.04, 128: 0.023}, 0.7),
         Bound("radial velocity", "L1", {64: 0.018, 128: 0.011}, 0.4),
         Bound("peak speed", "relative", {64: 0.2, 128: 0.135}, 0.35),
-        Bound("angular momentum", "relative", {64: 0.006, 128: 0.002}, why="lost to the disorder of the particles at once"),
+        Bound("angular momentum", "relative", {64: 0.006, 128: 0.002}, why="lost to disorder at once"),
     )
 
     def settings(self, resolution):

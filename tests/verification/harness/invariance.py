@@ -98,7 +98,8 @@ def close(what, case, base, run, seen):
 def same_errors(case, resolution, reference, workspace, settings):
     mixed = measure(case, resolution, workspace, {**(settings or {}), "numerics.precision": "mixed"})
     # Nothing that vanishes but for round-off can keep its digits.
-    changes = {key: abs(e - reference.errors[key]) / max(reference.errors[key], 1e-6) for key, e in mixed.errors.items()}
+    changes = {key: abs(error - reference.errors[key]) / max(reference.errors[key], 1e-6)
+               for key, error in mixed.errors.items()}
     key = max(changes, key=changes.get)
     print(f"mixed precision: largest change of an error {changes[key]:.2g} of it ({' '.join(key)}), limit "
           f"{case.mixed_margin}; energy {mixed.energy_drift:.1g}, momentum {mixed.momentum_drift:.1g}")

@@ -1,4 +1,4 @@
-"""Sedov's explosion on a line and at a point, into cold gas: a strong shock that leaves almost nothing in the middle."""
+"""Sedov's explosion on a line and at a point, into cold gas: a strong shock that leaves almost nothing behind."""
 import numpy as np
 
 from exact.sedov import Sedov

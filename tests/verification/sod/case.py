@@ -18,7 +18,7 @@ class Sod(Case):
     rows, half_length, half_width = 17, 0.51, 0.5  # in spacings; of the box; of the part without effects of the ends
     boost = "y"
     places = (
-        Bound("shock position", "spacings", 0.5, why="far sharper than the shock is resolved; in spacings no order is left"),
+        Bound("shock position", "spacings", 0.5, why="far sharper than the shock is resolved, and in spacings"),
         Bound("contact position", "spacings", 0.7, why="the same"),
     )
     bounds = (

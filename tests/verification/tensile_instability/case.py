@@ -5,7 +5,8 @@ from scipy.spatial import cKDTree
 from harness import Bound, Case
 
 SPACING = 1e-3  # m
-# 1 - the distance of the closest pair in spacings. 0.2 is asked of 2 particles a smoothing length; with 1.2 all fail.
+# 1 - the distance of the closest pair in spacings. 0.2 is asked of 2 particles a smoothing length; with 1.2 only the quintic
+# spline, with its wider support, keeps to it.
 ALLOWED = {("cubic_spline", 2.0): 0.02, ("quintic_spline", 2.0): 0.02, ("wendland_c2", 2.0): 0.1,
            ("wendland_c4", 2.0): 0.08, ("cubic_spline", 1.2): 0.47, ("quintic_spline", 1.2): 0.15,
            ("wendland_c2", 1.2): 0.4, ("wendland_c4", 1.2): 0.3}
@@ -15,8 +16,8 @@ class Tension(Case):
     """Resolution: particles along a side."""
     exact = "no motion"
     quick = full = (20,)
+    mixed_drift = 2e-4  # relative to the momentum of a body that does not move
     rotation = "the displacements are drawn by place"
-    mixed_margin = "the disturbance grows from round-off too where it grows"
 
     def __init__(self, kernel, nodes_per_h):
         self.kernel, self.nodes_per_h = kernel, nodes_per_h
@@ -25,6 +26,8 @@ class Tension(Case):
         self.bounds = (Bound("closest pair", "spacings lost", ALLOWED[kernel, nodes_per_h],
                              why="an instability grows or does not"),)
         self.boost = "x" if kernel == "wendland_c2" else "shown with wendland_c2"
+        if nodes_per_h < 2:
+            self.mixed_margin = "what grows, grows from round-off too"
 
     def settings(self, resolution):
         size = resolution * SPACING

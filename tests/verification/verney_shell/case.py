@@ -15,7 +15,6 @@ class VerneySphere(Case):
     exact = "energy balance of incompressible plastic flow (exact/verney.py), its motion integrated"
     quick = (3, 4)
     full = (4, 6, 8, 12)
-    momentum = 1.0
     boost = "walls on every axis"
     bounds = (
         Bound("inner radius", "relative", 1, 0.5),
