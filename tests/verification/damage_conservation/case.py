@@ -1,4 +1,4 @@
-"""Crushing and cracking in a small impact: what never happens, what is conserved, and what the order of the bodies is to it."""
+"""Crushing and cracking in a small impact: damage never heals, and the order of the bodies does not matter."""
 import tempfile
 from pathlib import Path
 

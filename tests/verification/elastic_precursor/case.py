@@ -14,8 +14,8 @@ class ElasticPrecursor(Case):
     name = "elastic_precursor"
     title = "bar of elastic, ideally plastic rock at a wall with 200 m/s"
     exact = "jump conditions at both shocks, Hooke's law in rates, von Mises' limit (exact/elastic_plastic.py)"
-    quick = (100, 200)
-    full = (100, 200, 400)
+    quick = (100, 200, 400)
+    full = (100, 200, 400, 800)
     boost = "y"
     bounds = (
         Bound("stress", "L1", {100: 0.05, 200: 0.034, 400: 0.022}, 0.5, why="both shocks are weak, so that viscosity "

@@ -42,8 +42,8 @@ class FlawStatistics(Case):
         count, strain = state["flaw_count"], state["flaw_strain"]
         weak = weakest(strain, m, k, solid)
         several = count > 1
-        strong = strongest(strain[several] * count[several] ** (1 / state["flaw_exponent"][several]), count[several], m, k,
-                           solid[several], particles)
+        largest = strain[several] * count[several] ** (1 / state["flaw_exponent"][several])
+        strong = strongest(largest, count[several], m, k, solid[several], particles)
         cube = weak[np.lexsort(state["position"].T)].reshape([resolution] * 3)
         uniform = np.exp(-cube)
         alike = [1 - np.mean(np.diff(uniform, axis=axis) ** 2) / (2 * uniform.var()) for axis in range(3)]
