@@ -63,7 +63,7 @@ class Commands(RunTest):
             section, key = path.rsplit(".", 1)
             default = re.search(r"; default (.+)$", sections[section][key])
             # Bodies have names; the dimension belongs to their shapes.
-            others = section in ("bodies", "insitu.ranges") or section.startswith("materials")
+            others = section in ("bodies", "bodies.profile", "insitu.ranges") or section.startswith("materials")
             if default and not others and path != "scene.dimension":
                 defaults[path] = default[1].strip('"')
         self.assertGreater(len(defaults), 30)

@@ -36,7 +36,8 @@ double peak_flops() {
   constexpr int chains = 12, rounds = 200000;  // enough chains to hide the latency
   const V factor = V{} + T(0.999), term = V{} + T(0.001);
   const double seconds = shortest_seconds([&] {
-    V sum[chains] = {};
+    V sum[chains];
+    for (int k = 0; k < chains; ++k) sum[k] = V{} + T(k);  // all different, so that no two of them are made one
     for (int round = 0; round < rounds; ++round)
       for (V& s : sum) s = s * factor + term;
     V total{};

@@ -33,8 +33,9 @@ class PWave(Case):
 
     def errors(self, run, resolution):
         """Phase and amplitude are those of the first Fourier component."""
-        rock = run.scene["materials"]["basalt"]
-        c = self.speed(number(rock["eos"]["A"]), number(rock["elastic"]["shear_modulus"]), number(rock["eos"]["density"]))
+        basalt = run.scene["materials"]["basalt"]
+        eos, elastic = basalt["eos"], basalt["elastic"]
+        c = self.speed(number(eos["A"]), number(elastic["shear_modulus"]), number(eos["density"]))
         state, k = run.final, 2 * np.pi / LENGTH
         x, v = state["position"][:, 0], state["velocity"][:, self.component] / AMPLITUDE
         component = 2j * np.mean(v * np.exp(-1j * k * (x - c * state.time)))  # 1, turned by k (c - c_measured) t

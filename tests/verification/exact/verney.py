@@ -1,5 +1,5 @@
 """Verney's problem: a shell of incompressible, ideally plastic matter flows inwards and stops when all of its kinetic
-energy has become plastic work (Verney 1968; Howell & Ball 2002, J. Comput. Phys. 175, 128)."""
+energy has become plastic work (Howell & Ball 2002, J. Comput. Phys. 175, 128)."""
 from dataclasses import dataclass
 
 import numpy as np
@@ -8,10 +8,10 @@ from scipy.integrate import quad, solve_ivp
 
 @dataclass(frozen=True)
 class Shell:
-    """A sphere (dimension 3) or, in plane strain, a tube (dimension 2) that starts with v = -u0 (inner/r)^(dimension - 1).
+    """A sphere (dimension d = 3) or, in plane strain, a tube (d = 2) that starts with v = -u0 (inner/r)^(d - 1).
 
-    Matter keeps its volume: r^d = r0^d - c, the same c for all. The equivalent plastic strain is k ln(r0/r), with k = 2 for
-    the sphere (rates -2 v/r, v/r, v/r along r and across) and k = 2/sqrt(3) for the tube (rates -v/r, v/r, 0).
+    Matter keeps its volume: r^d = r0^d - c, the same c for all. The equivalent plastic strain is k ln(r0/r), with k = 2
+    for the sphere (rates -2 v/r, v/r, v/r along r and across) and k = 2/sqrt(3) for the tube (rates -v/r, v/r, 0).
     """
     inner: float    # radius at the start, m
     outer: float
@@ -36,8 +36,8 @@ class Shell:
         return float(np.sqrt(2 * work / (self.density * mass)))
 
     def motion(self, u0, time):
-        """Inner radius [m] at times, from the equation of motion: at speed u = -da/dt of the inner radius a, kinetic
-        energy E = half density u^2 a^(2d - 2) M with M = int r^(1 - d) dr over the shell, and dE/dt = -plastic power."""
+        """Inner radius [m] at times, and when it stops [s]. At the speed u = -da/dt of the inner radius a the kinetic
+        energy is half density u^2 a^(2d - 2) int r^(1 - d) dr over the shell; the plastic power takes it away."""
         d = self.dimension
         shell = self.outer**d - self.inner**d
 

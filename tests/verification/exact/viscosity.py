@@ -4,7 +4,7 @@ from scipy.spatial import cKDTree
 
 
 def slope_wendland_c2(r, h):
-    """dW/dr in 3D [1/m^4] of the kernel with support 2 h (Dehnen & Aly 2012): W = 21/(16 pi h^3) (1 - q/2)^4 (1 + 2 q)."""
+    """dW/dr [1/m^4] of W = 21/(16 pi h^3) (1 - q/2)^4 (1 + 2 q), q = r/h, in 3D (Dehnen & Aly 2012)."""
     q = r / h
     return -105 / (16 * np.pi) * q * np.maximum(1 - q / 2, 0) ** 3 / h**4
 
@@ -15,13 +15,14 @@ def with_mirrors(x, v, reach):
     for axis in range(x.shape[1]):
         near = x[:, axis] < reach
         x, v, source = (np.concatenate([a, a[near]]) for a in (x, v, source))
-        for a in (x, v):
-            a[-near.sum() or len(a):, axis] *= -1
+        first = len(x) - near.sum()
+        x[first:, axis] *= -1
+        v[first:, axis] *= -1
     return x, v, source
 
 
 def viscous_power(state, alpha, beta):
-    """W: sum over pairs m_i m_j Pi_ij v_ij . grad W_ij (Monaghan 1992, eqs 4.1 and 4.2, with 0.01 h^2)."""
+    """W: sum over pairs m_i m_j Pi_ij v_ij . grad W_ij (Monaghan 1992, section 4.1, with 0.01 h^2)."""
     h, rho, c, m = (state[name] for name in ("smoothing_length", "density", "sound_speed", "mass"))
     x, v, source = with_mirrors(state["position"], state["velocity"], 2 * h.max())
     pairs = cKDTree(x).query_pairs(2 * h.max(), output_type="ndarray")

@@ -16,7 +16,8 @@ EQUATIONS = {file.stem: eos for file in sorted(LIBRARY.glob("*.toml"))
 
 # Shock speed [m/s], pressure [GPa] and, where given, density [kg/m^3] worked out by another program.
 PRINTED = {
-    ("basalt", 500): (3905, 5.271, 3096), ("basalt", 1000): (4684, 12.646, 3433), ("basalt", 2000): (6298, 34.009, 3956),
+    ("basalt", 500): (3905, 5.271, 3096), ("basalt", 1000): (4684, 12.646, 3433),
+    ("basalt", 2000): (6298, 34.009, 3956),
     ("aluminium", 500): (6016, 8.122, 2945), ("aluminium", 1000): (6754, 18.234, 3169),
     ("aluminium", 2000): (8183, 44.186, 3573), ("iron", 500): (4768, 18.60, 8714), ("iron", 1000): (5501, 42.91, 9533),
     ("iron", 2000): (6980, 108.9, 10932), ("nylon", 500): (4144, 2.455, 1348), ("nylon", 1000): (5200, 6.162, 1467),

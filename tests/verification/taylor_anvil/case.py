@@ -37,8 +37,8 @@ class TaylorAnvil(Case):
         return {"resolution.spacing": (RADIUS / resolution, "m")}
 
     def errors(self, run, resolution):
-        copper, numerics, kinetic = run.scene["materials"]["copper"], run.scene["numerics"], run.history["kinetic energy"]
-        lost = kinetic[0] - kinetic[-1]
+        copper, numerics = run.scene["materials"]["copper"], run.scene["numerics"]
+        lost = run.history["kinetic energy"][0] - run.history["kinetic energy"][-1]
         strength = number(copper["strength"]["yield_stress"])
         plastic = self.plastic_work(run, strength, number(copper["eos"]["density"]))
         elastic = self.elastic_energy(run.final, number(copper["elastic"]["shear_modulus"]), number(copper["eos"]["A"]))
@@ -58,7 +58,7 @@ class TaylorAnvil(Case):
         return work
 
     def viscous_work(self, run, alpha, beta):
-        """Its power summed over time; the impact itself, with most of it, once more with states close to one another."""
+        """Its power summed over time; the impact itself, with most of it, once more with states close together."""
         impact = again(self.scene_file, run, "impact", {"time.end": "2 us", "output.snapshots": 100})
         states = impact.states + [s for s in run.states if s.time > impact.final.time * (1 + 1e-9)]
         power = [viscous_power(s, alpha, beta) for s in states]
