@@ -25,7 +25,8 @@ template <int Dim>
 void make_images(const Particles<Dim>& particles, const Boundary& boundary, double reach, std::vector<Image>& images);
 
 /// Puts particles that left a periodic face back in at the other side, and those that crossed a reflecting face back as
-/// their own mirror images: two particles and their images may pass through each other where matter is cold and violent.
+/// their own mirror images: two particles and their images may pass through each other where matter is cold and
+/// violent.
 template <int Dim>
 void wrap_positions(Particles<Dim>& particles, const Boundary& boundary);
 

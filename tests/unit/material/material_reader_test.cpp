@@ -178,15 +178,16 @@ TEST(ReadMaterials, RefusesWhatBodiesCannotHave) {
     return problems_of([&] { read_materials(parse_scene(scene_text(numerics, body), "s.toml"), library); });
   };
   EXPECT_EQ(problems("", ""), One{});
-  EXPECT_EQ(
-      problems("[numerics]\ndensity = \"summation\"\n", ""),
-      One{"s.toml:9: bodies.target: numerics.density: expected continuity, got summation: pumice is no gas, and a summed "
-          "density falls off at free surfaces"});
+  EXPECT_EQ(problems("[numerics]\ndensity = \"summation\"\n", ""),
+            One{"s.toml:9: bodies.target: numerics.density: expected continuity, got summation: pumice is no gas, and "
+                "a summed "
+                "density falls off at free surfaces"});
   EXPECT_EQ(problems("", "pressure = \"1 Pa\"\n"),
             One{"s.toml:7: bodies.target: pressure: only a gas can be given one, and pumice is none"});
-  EXPECT_EQ(problems("", "density = \"800 kg/m^3\"\n"), One{"s.toml:7: bodies.target: density: expected 700 kg/m^3, the "
-                                                            "bulk density of pumice, got 800 kg/m^3; to change it "
-                                                            "set materials.pumice.porosity.initial_distension"});
+  EXPECT_EQ(problems("", "density = \"800 kg/m^3\"\n"),
+            One{"s.toml:7: bodies.target: density: expected 700 kg/m^3, the "
+                "bulk density of pumice, got 800 kg/m^3; to change it "
+                "set materials.pumice.porosity.initial_distension"});
 }
 
 TEST(ReadMaterials, CollectsTheProblemsOfAll) {
