@@ -34,6 +34,7 @@ inline Float16 max(Float16 a, Float16 b) { return (Float16)_mm512_max_ps((__m512
 inline Float16 min(Float16 a, Float16 b) { return (Float16)_mm512_min_ps((__m512)a, (__m512)b); }
 /// True if a < b in any lane.
 inline bool any_less(Double8 a, Double8 b) { return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LT_OQ) != 0; }
+inline bool any_less(Float16 a, Float16 b) { return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LT_OQ) != 0; }
 #else
 template <class V>
 inline V max(V a, V b) {
@@ -44,9 +45,10 @@ inline V min(V a, V b) {
   return a < b ? a : b;
 }
 /// True if a < b in any lane.
-inline bool any_less(Double8 a, Double8 b) {
+template <class V>
+bool any_less(V a, V b) {
   bool any = false;
-  for (int k = 0; k < 8; ++k) any |= a[k] < b[k];
+  for (std::size_t k = 0; k < sizeof(V) / sizeof(a[0]); ++k) any |= a[k] < b[k];
   return any;
 }
 #endif

@@ -18,8 +18,10 @@ enum class Field {
   pressure,
   sound_speed,
   smoothing_length,
+  smoothing_metric,
   neighbour_sum,
   velocity_gradient,
+  coupled_gradient,
   shear_switch,
   approach_speed,
   deviatoric_stress,
@@ -30,6 +32,8 @@ enum class Field {
   damage,
   crack,
   crack_rate,
+  damage_tensor,
+  strain_history,
   flaw_strain,
   flaw_exponent,
   flaw_count,
@@ -37,7 +41,7 @@ enum class Field {
 };
 inline constexpr int field_count = static_cast<int>(Field::count);
 
-enum class Shape { scalar, vector, tensor, deviator };
+enum class Shape { scalar, vector, tensor, symmetric, deviator };
 enum class Role {
   constant,  ///< set once
   state,     ///< advanced in time or with memory; makes up a checkpoint
@@ -67,6 +71,8 @@ constexpr int components(Shape shape, int dim) {
       return dim;
     case Shape::tensor:
       return dim * dim;
+    case Shape::symmetric:
+      return dim * (dim + 1) / 2;
     case Shape::deviator:
       return dim == 2 ? 3 : 5;
   }

@@ -47,6 +47,16 @@ class Particles {
     for (int a = 0; a < Dim; ++a) column(f, a)[i] = v[a];
   }
 
+  Mat<Dim> symmetric(Field f, std::size_t i) const {
+    Symmetric<Dim> s;
+    for (int k = 0; k < symmetric_size<Dim>; ++k) s[k] = column(f, k)[i];
+    return matrix_of<Dim>(s);
+  }
+  void set_symmetric(Field f, std::size_t i, const Mat<Dim>& m) {
+    const Symmetric<Dim> s = symmetric_of<Dim>(m);
+    for (int k = 0; k < symmetric_size<Dim>; ++k) column(f, k)[i] = s[k];
+  }
+
   /// Particles of one material are contiguous: the range of each, by material number.
   const std::vector<Range>& material_ranges() const { return material_ranges_; }
   void set_material_ranges(std::vector<Range> ranges) { material_ranges_ = std::move(ranges); }

@@ -33,13 +33,17 @@ void describe(Describer& d, Profile& p) {
 }
 
 void describe(Describer& d, Numerics& n) {
-  d.choice("scheme", n.scheme, "how neighbours push each other");
+  d.choice("scheme", n.scheme, "smoothing: sph, a length h; asph, a tensor H (ellipsoids)");
   d.choice("kernel", n.kernel, "smoothing kernel");
   d.choice("precision", n.precision, "of the pair passes; mixed: pair differences in float, sums and states in double");
   d.choice("density", n.density, "continuity for solids; summation for gases only");
   d.number("nodes_per_h", n.nodes_per_h, "1", between(1, 4), "particles per smoothing length");
   d.number("smoothing_growth", n.smoothing_growth, "1", at_least(1),
            "of solids: largest h relative to that of the lattice; 1: h constant. A gas may widen it 20 times");
+  d.number("largest_aspect", n.largest_aspect, "1", at_least(1),
+           "asph: longest over shortest axis of a smoothing ellipsoid");
+  d.integer("shape_interval", n.shape_interval, at_least(1),
+            "asph: steps between votes on the shape of H, which moves with the flow between them");
   d.flag("gradient_correction", n.gradient_correction, "velocity gradients exact for linear fields");
   d.flag("balsara", n.balsara, "shear switch on the viscosity");
   d.number("viscosity_alpha", n.viscosity_alpha, "1", non_negative, "linear coefficient of Monaghan's viscosity");

@@ -18,7 +18,7 @@ inline bool is_set(double value) { return !std::isnan(value); }
 using Triple = std::array<double, 3>;  ///< x, y, z; z is ignored in plane strain
 
 enum class Kernel { cubic_spline, quintic_spline, wendland_c2, wendland_c4 };
-enum class SchemeKind { sph };
+enum class SchemeKind { sph, asph };
 enum class Precision { double_precision, mixed };
 enum class DensityMethod { continuity, summation };
 enum class BoundaryKind { open, periodic, reflecting };
@@ -60,8 +60,10 @@ struct Numerics {
   Kernel kernel = Kernel::wendland_c2;
   Precision precision = Precision::double_precision;
   DensityMethod density = DensityMethod::continuity;
-  double nodes_per_h = 1.3;          ///< n_h of seed 001: particles per smoothing length
-  double smoothing_growth = 1.5;     ///< h stays within [1/4, this] of its initial value; 1 keeps h constant
+  double nodes_per_h = 1.3;       ///< n_h of seed 001: particles per smoothing length
+  double smoothing_growth = 1.5;  ///< h stays within [1/4, this] of its initial value; 1 keeps h constant
+  double largest_aspect = 10;     ///< ASPH: longest over shortest axis of the smoothing ellipsoid
+  int shape_interval = 5;         ///< ASPH: steps between votes on the shape of H; between them it moves with the flow
   bool gradient_correction = false;  ///< velocity gradients exact for linear fields
   bool balsara = false;              ///< shear switch on the viscosity
   double viscosity_alpha = 1;        ///< linear coefficient of Monaghan's viscosity

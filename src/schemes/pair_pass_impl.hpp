@@ -2,6 +2,7 @@
 /// The pair loop. W particles i sit in the lanes of vector registers; the candidates j of their cluster are broadcast
 /// one by one from their records. Included only by the pair_pass_<kernel>.cpp files, one instantiation each.
 #include <Eigen/LU>
+#include <bit>
 
 #include "base/parallel.hpp"
 #include "schemes/pair_pass.hpp"
@@ -92,7 +93,24 @@ class PairPassOf final : public PairPass<Dim> {
  private:
   using R = PairRecord<T, Dim, Stress>;
   using V = simd::Vector<T, simd::lanes<T>>;
-  static constexpr int symmetric_size = Dim * (Dim + 1) / 2;
+
+  /// A candidate as the lanes of a cluster see it.
+  struct Partner {
+    V dx[Dim], r2;  ///< x_j - x_i
+    typename IsotropicSupport<V, Dim, K>::Pair pair;
+    const T* record;
+  };
+  /// Candidates go in batches through two short loops: who is within reach of any lane, and what passes between those.
+  /// Lists have margins, so many are not; and chains of dependent operations overlap better in short loops. Who is
+  /// within reach is kept as bits in a register: an address made of it would hold up the loads that follow.
+  static constexpr std::size_t batch = 32;
+
+  /// Fetches the record that the next batch will want.
+  void prefetch(std::uint32_t index) const {
+    constexpr std::size_t line = 64 / sizeof(T);
+    const T* record = records_.data() + static_cast<std::size_t>(index) * R::size;
+    for (std::size_t k = 0; k < R::size; k += line) __builtin_prefetch(record + k);
+  }
 
   void cluster_rates(Particles<Dim>& particles, const Cluster& c, std::span<const std::uint32_t> candidates) const;
   void cluster_density(Particles<Dim>& particles, const Cluster& c, std::span<const std::uint32_t> candidates) const;
@@ -133,50 +151,66 @@ void PairPassOf<T, Dim, Stress, Gradient, Correction, K>::cluster_rates(
   const T alpha = static_cast<T>(settings_.viscosity_alpha), beta = static_cast<T>(settings_.viscosity_beta);
 
   simd::WideSum<T> acceleration[Dim], viscous_heating;
-  V gradient[Gradient ? Dim * Dim : 1] = {}, spread[symmetric_size] = {}, moment{}, fastest{};
-  for (const std::uint32_t index : candidates) {
-    const T* j = records + static_cast<std::size_t>(index) * R::size;
-    V dx[Dim], r2;
-    pair_detail::separation<V, R, Dim>(x, x_low, j, dx, r2);
-    const auto pair = support.template pair<R>(dx, r2, j);
-    V dv[Dim];
-    for (int a = 0; a < Dim; ++a) dv[a] = j[R::v + a] - v[a];
-    V approach = dv[0] * dx[0], work = dv[0] * pair.gradient[0];
-    for (int a = 1; a < Dim; ++a) {
-      approach += dv[a] * dx[a];
-      work += dv[a] * pair.gradient[a];
+  V gradient[Gradient ? Dim * Dim : 1] = {}, spread[symmetric_size<Dim>] = {}, moment{}, fastest{};
+  Partner partners[batch];
+  for (std::size_t begin = 0; begin < candidates.size(); begin += batch) {
+    const std::size_t end = std::min(begin + batch, candidates.size());
+    std::uint64_t reached = 0;
+    for (std::size_t place = begin; place < end; ++place) {
+      prefetch(candidates[std::min(place + batch, candidates.size() - 1)]);
+      Partner& p = partners[place - begin];
+      p.record = records + static_cast<std::size_t>(candidates[place]) * R::size;
+      pair_detail::separation<V, R, Dim>(x, x_low, p.record, p.dx, p.r2);
+      p.pair = support.template pair<R>(p.r2, p.record);
+      moment += p.pair.moment;
+      reached |= std::uint64_t{simd::any_less(V{}, p.pair.slope)} << (place - begin);
     }
-    // Monaghan (1992): mu = h v.x / (r^2 + 0.01 h^2) while approaching, Pi = (-alpha c mu + beta mu^2) / rho. Here mu
-    // <= 0.
-    const V mu = pair.mean_h * simd::min(approach, V{}) * simd::reciprocal(V(r2 + T(0.01) * pair.mean_h * pair.mean_h));
-    const V sound = T(0.5) * (sound_speed + j[R::sound_speed]);
-    const V viscosity = T(0.5) * (shear_switch + j[R::shear_switch]) *
-                        (T(0.5) * (density_reciprocal + j[R::density_reciprocal])) * (mu * (beta * mu - alpha * sound));
-    // sigma_i/rho_i^2 + sigma_j/rho_j^2 - Pi I
-    V total[R::stresses], force[Dim];
-    for (int s = 0; s < R::stresses; ++s) total[s] = stress[s] + j[R::stress + s];
-    for (int s = 0; s < (Stress ? Dim : 1); ++s) total[s] -= viscosity;
-    pair_detail::contract<Stress, Dim>(total, pair.gradient, force);
-
-    const T mass = j[R::mass];
-    for (int a = 0; a < Dim; ++a) acceleration[a].add(mass, force[a]);
-    viscous_heating.add(mass, V(viscosity * work));
-    if constexpr (Gradient) {
-      V weighted[Dim];
-      for (int b = 0; b < Dim; ++b) weighted[b] = mass * pair.gradient[b];
-      for (int a = 0; a < Dim; ++a)
-        for (int b = 0; b < Dim; ++b) gradient[a * Dim + b] += dv[a] * weighted[b];
-      if constexpr (Correction) {
-        for (int a = 0; a < Dim; ++a) spread[a] += dx[a] * weighted[a];
-        int s = Dim;
-        for (int a = 0; a < Dim; ++a)
-          for (int b = a + 1; b < Dim; ++b) spread[s++] += dx[a] * weighted[b];
+    for (; reached != 0; reached &= reached - 1) {
+      const Partner& p = partners[std::countr_zero(reached)];
+      const T* j = p.record;
+      V dv[Dim], kernel_gradient[Dim];
+      for (int a = 0; a < Dim; ++a) {
+        dv[a] = j[R::v + a] - v[a];
+        kernel_gradient[a] = p.pair.slope * p.dx[a];
       }
-    } else {
-      gradient[0] += mass * work;
+      V approach = dv[0] * p.dx[0], work = dv[0] * kernel_gradient[0];
+      for (int a = 1; a < Dim; ++a) {
+        approach += dv[a] * p.dx[a];
+        work += dv[a] * kernel_gradient[a];
+      }
+      // Monaghan (1992): mu = h v.x / (r^2 + 0.01 h^2) while approaching, Pi = (-alpha c mu + beta mu^2) / rho. Here mu
+      // <= 0.
+      const V mean_h = support.template mean_h<R>(j);
+      const V mu = mean_h * simd::min(approach, V{}) * simd::reciprocal(V(p.r2 + T(0.01) * mean_h * mean_h));
+      const V sound = T(0.5) * (sound_speed + j[R::sound_speed]);
+      const V viscosity = T(0.5) * (shear_switch + j[R::shear_switch]) *
+                          (T(0.5) * (density_reciprocal + j[R::density_reciprocal])) *
+                          (mu * (beta * mu - alpha * sound));
+      // sigma_i/rho_i^2 + sigma_j/rho_j^2 - Pi I
+      V total[R::stresses], force[Dim];
+      for (int s = 0; s < R::stresses; ++s) total[s] = stress[s] + j[R::stress + s];
+      for (int s = 0; s < (Stress ? Dim : 1); ++s) total[s] -= viscosity;
+      pair_detail::contract<Stress, Dim>(total, kernel_gradient, force);
+
+      const T mass = j[R::mass];
+      for (int a = 0; a < Dim; ++a) acceleration[a].add(mass, force[a]);
+      viscous_heating.add(mass, V(viscosity * work));
+      if constexpr (Gradient) {
+        V weighted[Dim];
+        for (int b = 0; b < Dim; ++b) weighted[b] = mass * kernel_gradient[b];
+        for (int a = 0; a < Dim; ++a)
+          for (int b = 0; b < Dim; ++b) gradient[a * Dim + b] += dv[a] * weighted[b];
+        if constexpr (Correction) {
+          for (int a = 0; a < Dim; ++a) spread[a] += p.dx[a] * weighted[a];
+          int s = Dim;
+          for (int a = 0; a < Dim; ++a)
+            for (int b = a + 1; b < Dim; ++b) spread[s++] += p.dx[a] * weighted[b];
+        }
+      } else {
+        gradient[0] += mass * work;
+      }
+      fastest = simd::min(fastest, V(p.pair.moment > 0 ? mu : V{}));
     }
-    moment += pair.moment;
-    fastest = simd::min(fastest, V(pair.moment > 0 ? mu : V{}));
   }
 
   const double per_unit = 1 / settings_.length_unit;
@@ -196,8 +230,8 @@ void PairPassOf<T, Dim, Stress, Gradient, Correction, K>::cluster_rates(
       for (int a = 0; a < Dim; ++a)
         for (int b = 0; b < Dim; ++b) L(a, b) = raw[a * Dim + b] * specific_volume;
       if constexpr (Correction) {
-        double sums[symmetric_size];
-        for (int s = 0; s < symmetric_size; ++s) sums[s] = static_cast<double>(spread[s][k]) * specific_volume;
+        double sums[symmetric_size<Dim>];
+        for (int s = 0; s < symmetric_size<Dim>; ++s) sums[s] = static_cast<double>(spread[s][k]) * specific_volume;
         L = (L * pair_detail::correction<Dim>(sums)).eval();
       }
       for (int a = 0; a < Dim; ++a)

@@ -1,5 +1,6 @@
 #include "schemes/pair_records.hpp"
 
+#include <array>
 #include <cmath>
 
 #include "base/parallel.hpp"
@@ -46,14 +47,23 @@ void pack_records(const Particles<Dim>& particles, const std::vector<Image>& ima
   if (records.size() < needed) records.resize(needed + needed / 8);
   const double to_unit = 1 / length_unit;
   const bool has_switch = particles.has(Field::shear_switch);
+  std::array<std::span<const double>, Dim> position, velocity;
+  for (int a = 0; a < Dim; ++a) {
+    position[a] = particles.column(Field::position, a);
+    velocity[a] = particles.column(Field::velocity, a);
+  }
+  std::array<std::span<const double>, Stress ? deviator_size<Dim> : 0> deviatoric_stress;
+  for (std::size_t k = 0; k < deviatoric_stress.size(); ++k)
+    deviatoric_stress[k] = particles.column(Field::deviatoric_stress, static_cast<int>(k));
+  const auto shear_switch = has_switch ? particles.column(Field::shear_switch) : std::span<const double>{};
   const auto h = particles.column(Field::smoothing_length), mass = particles.column(Field::mass),
              density = particles.column(Field::density), pressure = particles.column(Field::pressure),
              sound_speed = particles.column(Field::sound_speed);
   parallel_for(0, n, [&](std::size_t i) {
     T* r = records.data() + i * R::size;
     for (int a = 0; a < Dim; ++a) {
-      set_position<T, R, Dim>(r, a, particles.column(Field::position, a)[i] * to_unit);
-      r[R::v + a] = static_cast<T>(particles.column(Field::velocity, a)[i]);
+      set_position<T, R, Dim>(r, a, position[a][i] * to_unit);
+      r[R::v + a] = static_cast<T>(velocity[a][i]);
     }
     const double h_reciprocal = length_unit / h[i], density_reciprocal = 1 / density[i];
     r[R::h] = static_cast<T>(h[i] * to_unit);
@@ -62,13 +72,13 @@ void pack_records(const Particles<Dim>& particles, const std::vector<Image>& ima
     r[R::mass] = static_cast<T>(mass[i] * power<Dim>(to_unit));
     r[R::density_reciprocal] = static_cast<T>(density_reciprocal);
     r[R::sound_speed] = static_cast<T>(sound_speed[i]);
-    r[R::shear_switch] = has_switch ? static_cast<T>(particles.column(Field::shear_switch)[i]) : T(1);
+    r[R::shear_switch] = has_switch ? static_cast<T>(shear_switch[i]) : T(1);
     const double per_density2 = density_reciprocal * density_reciprocal;
     if constexpr (!Stress) {
       r[R::stress] = static_cast<T>(-pressure[i] * per_density2);
     } else {
       const double scale = intact.empty() ? 1.0 : intact[i];
-      auto deviator = [&](int k) { return scale * particles.column(Field::deviatoric_stress, k)[i]; };
+      auto deviator = [&](int k) { return scale * deviatoric_stress[k][i]; };
       T* s = r + R::stress;
       s[0] = static_cast<T>((deviator(0) - pressure[i]) * per_density2);
       s[1] = static_cast<T>((deviator(1) - pressure[i]) * per_density2);

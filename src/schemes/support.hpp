@@ -13,14 +13,13 @@ struct IsotropicSupport {
   V h, h_reciprocal, slope_norm;  ///< of the lanes i
 
   struct Pair {
-    V gradient[Dim];  ///< grad_i W_ij
-    V moment;         ///< |dW/deta| at eta_i = r/h_i
-    V mean_h;
+    V slope;   ///< grad_i W_ij = slope (x_j - x_i); 0 exactly where neither reaches the other
+    V moment;  ///< |dW/deta| at eta_i = r/h_i
   };
 
-  /// dx = x_j - x_i, r2 = dx.dx; `j` is the record of the partner with layout R.
+  /// r2 = |x_j - x_i|^2; `j` is the record of the partner with layout R.
   template <class R>
-  Pair pair(const V (&dx)[Dim], V r2, const S* j) const {
+  Pair pair(V r2, const S* j) const {
     // A particle is its own partner too: the guard keeps r = 0 finite, and dx = 0 makes all its terms vanish.
     constexpr S guard = sizeof(S) == sizeof(float) ? S(1e-30) : S(1e-200);
     const V r_reciprocal = simd::reciprocal_sqrt(V(r2 + guard));
@@ -29,12 +28,12 @@ struct IsotropicSupport {
     const V slope_i = K::slope_over_q(q_i, V(h * r_reciprocal));
     const V slope_j = K::slope_over_q(q_j, V(j[R::h] * r_reciprocal));
     // Each product is rounded before the sum, so that the pair seen from j gives the same number.
-    const V mean = S(-0.5) * (simd::rounded(V(slope_i * slope_norm)) + simd::rounded(V(slope_j * j[R::slope_norm])));
-    Pair p;
-    for (int a = 0; a < Dim; ++a) p.gradient[a] = mean * dx[a];
-    p.moment = -q_i * slope_i;
-    p.mean_h = S(0.5) * (h + j[R::h]);
-    return p;
+    const V slope = S(-0.5) * (simd::rounded(V(slope_i * slope_norm)) + simd::rounded(V(slope_j * j[R::slope_norm])));
+    return {slope, -q_i * slope_i};
+  }
+  template <class R>
+  V mean_h(const S* j) const {
+    return S(0.5) * (h + j[R::h]);
   }
 };
 

@@ -49,18 +49,22 @@ constexpr bool needs_reciprocal_of_q(Kernel kernel) {
 /// x_j - x_i and r^2; positions of mixed precision are sums of two numbers.
 constexpr int separation(const PairWork& w) { return w.dim * (w.mixed ? 3 : 1) + 2 * w.dim - 1; }
 
-/// One lane and one candidate of PairPass::rates (schemes/pair_pass_impl.hpp, schemes/support.hpp).
-constexpr int pair_rates(const PairWork& w) {
+/// PairPass::rates (schemes/pair_pass_impl.hpp, schemes/support.hpp): one lane and one candidate, to see whether it is
+/// within reach.
+constexpr int pair_reach(const PairWork& w) {
+  return separation(w) + 1 + reciprocal_sqrt(w.mixed) + 3 + 2 * kernel_slope(w.kernel) +
+         (needs_reciprocal_of_q(w.kernel) ? 2 : 0) + 4 + 1 + 1;
+}
+/// The same: one lane and one partner within reach of any lane, for what passes between them.
+constexpr int pair_exchange(const PairWork& w) {
   const int stresses = w.stress ? w.dim * (w.dim + 1) / 2 : 1;
-  const int kernel_gradient = 1 + reciprocal_sqrt(w.mixed) + 3 + 2 * kernel_slope(w.kernel) +
-                              (needs_reciprocal_of_q(w.kernel) ? 2 : 0) + 4 + w.dim + 1 + 2;
-  const int approach_and_work = w.dim + 2 * (2 * w.dim - 1);
-  const int viscosity = 5 + reciprocal(w.mixed) + 2 + 4 + 4 + 2;
+  const int approach_and_work = w.dim + w.dim + 2 * (2 * w.dim - 1);
+  const int viscosity = 2 + 4 + reciprocal(w.mixed) + 2 + 4 + 4 + 2;
   const int force = stresses + (w.stress ? w.dim * (1 + 2 * w.dim - 1) : 1 + w.dim);
-  const int sums = 2 * w.dim + 3 + 1;
+  const int sums = 2 * w.dim + 3;
   const int gradient = w.gradient ? w.dim + 2 * w.dim * w.dim : 2;
   const int correction = w.correction ? w.dim * (w.dim + 1) : 0;
-  return separation(w) + kernel_gradient + approach_and_work + viscosity + force + sums + gradient + correction;
+  return approach_and_work + viscosity + force + sums + gradient + correction;
 }
 
 /// One lane and one candidate of PairPass::density.

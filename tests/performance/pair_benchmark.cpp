@@ -35,31 +35,46 @@ struct PairCase {
     pass = make_pair_pass<Dim>(settings);
   }
 
-  /// Particles within the support of a particle, the mean over all.
-  double mean_neighbours(Kernel kernel) const {
+  /// Mean numbers of partners: within the support of a particle, and candidates within reach of any of a cluster.
+  struct Partners {
+    double neighbours = 0, reached = 0;
+  };
+  Partners partners(Kernel kernel) const {
     const auto& p = sim.particles;
-    const double support = kernel_support(kernel);
-    std::size_t pairs = 0, members = 0;
-    for (std::size_t c = 0; c < lists.clusters().size(); c += 50) {
+    const auto h = p.column(Field::smoothing_length);
+    Partners mean;
+    std::size_t members = 0, clusters = 0;
+    for (std::size_t c = 0; c < lists.clusters().size(); c += 50, ++clusters) {
       const Cluster& cluster = lists.clusters()[c];
-      for (std::size_t i = cluster.begin; i < cluster.end; ++i, ++members)
-        for (const std::uint32_t j : lists.candidates(c))
-          pairs += i != j && (p.vector(Field::position, i) - p.vector(Field::position, j)).norm() <
-                                 support * p.column(Field::smoothing_length)[i];
+      members += cluster.end - cluster.begin;
+      for (const std::uint32_t j : lists.candidates(c)) {
+        bool reached = false;
+        for (std::size_t i = cluster.begin; i < cluster.end; ++i) {
+          const double q =
+              (p.vector(Field::position, i) - p.vector(Field::position, j)).norm() / kernel_support(kernel);
+          mean.neighbours += i != j && q < h[i];
+          reached |= q < std::max(h[i], h[j]);
+        }
+        mean.reached += reached;
+      }
     }
-    return static_cast<double>(pairs) / static_cast<double>(members);
+    return {mean.neighbours / static_cast<double>(members), mean.reached / static_cast<double>(clusters)};
   }
 
-  void report(Measurement& measured, const flops::PairWork& work, int flops_per_lane) const {
+  /// Operations of all lanes: per candidate, and per candidate within reach.
+  void report(Measurement& measured, const flops::PairWork& work, int per_candidate, int per_reached) const {
     const std::size_t lanes = lists.clusters().front().end - lists.clusters().front().begin;
-    const double pairs = lists.mean_candidates() * static_cast<double>(lists.clusters().size() * lanes);
+    const Partners mean = partners(work.kernel);
+    const double operations = static_cast<double>(lists.clusters().size() * lanes) *
+                              (lists.mean_candidates() * per_candidate + mean.reached * per_reached);
     measured.items(static_cast<double>(sim.particles.size()));
-    measured.counter("neighbours", mean_neighbours(work.kernel));
+    measured.counter("neighbours", mean.neighbours);
     measured.counter("candidates", lists.mean_candidates());
+    measured.counter("reached", mean.reached);
     if (work.mixed) {
-      measured.flops<float>(pairs * flops_per_lane);
+      measured.flops<float>(operations);
     } else {
-      measured.flops<double>(pairs * flops_per_lane);
+      measured.flops<double>(operations);
     }
   }
 };
@@ -69,7 +84,7 @@ void pair_rates(benchmark::State& state, const flops::PairWork& work) {
   PairCase<Dim> c(work);
   Measurement measured(state);
   measured.run([&] { c.pass->rates(c.sim.particles, c.lists, c.sim.intact); });
-  c.report(measured, work, flops::pair_rates(work));
+  c.report(measured, work, flops::pair_reach(work), flops::pair_exchange(work));
 }
 
 template <int Dim>
@@ -77,7 +92,7 @@ void summation_density(benchmark::State& state, const flops::PairWork& work) {
   PairCase<Dim> c(work);
   Measurement measured(state);
   measured.run([&] { c.pass->density(c.sim.particles, c.lists); });
-  c.report(measured, work, flops::pair_density(work));
+  c.report(measured, work, flops::pair_density(work), 0);
 }
 
 template <int Dim>
