@@ -17,6 +17,17 @@ struct Image {
   std::array<std::int8_t, 3> mirror{0, 0, 0};  ///< reflecting: -1 lower face, 1 upper face, 0 none
 };
 
+/// Mirrors a symmetric tensor (order: base/types.hpp) across an axis: the off-diagonals that hold it once flip.
+template <int Dim, class T>
+void mirror_symmetric(T* tensor, int axis) {
+  if constexpr (Dim == 2) {
+    tensor[2] = -tensor[2];
+  } else {
+    for (int pair = 0; pair < 3; ++pair)  // xy, xz, yz: each axis takes part in two of them
+      if (pair != 2 - axis) tensor[3 + pair] = -tensor[3 + pair];
+  }
+}
+
 /// Position of the image of x along one axis.
 double image_position(const Boundary& boundary, const Image& image, int axis, double x);
 

@@ -6,6 +6,7 @@
 
 #include "base/parallel.hpp"
 #include "base/simd.hpp"
+#include "particles/smoothing_metric.hpp"
 
 namespace ejecta {
 
@@ -61,6 +62,19 @@ void PairLists<Dim>::make_points(const Particles<Dim>& particles, const Settings
     p.support = settings.support * h[i];
     p.margin = least_margin * p.support + std::sqrt(speed2) * settings.horizon;
   });
+  ellipsoids_.clear();
+  if (particles.has(Field::smoothing_metric)) {
+    ellipsoids_.resize(n);
+    parallel_for(0, n, [&](std::size_t i) {
+      const Mat<Dim> metric = particles.symmetric(Field::smoothing_metric, i), inverse = metric.inverse();
+      const Axes axes = axes_of<Dim>(metric);
+      Ellipsoid& e = ellipsoids_[i];
+      for (int k = 0; k < symmetric_size<Dim>; ++k) e.metric[k] = particles.column(Field::smoothing_metric, k)[i];
+      for (int a = 0; a < Dim; ++a) e.extent[a] = settings.support * std::sqrt(inverse(a, a));
+      e.per_length = 1 / axes.shortest;
+      points_[i].support = settings.support * axes.longest;
+    });
+  }
   images_.clear();
   if (!bounded(settings.boundary)) return;
   // A pair may be as far apart as the widest reach of the one and the widest margin of the other.
@@ -74,6 +88,11 @@ void PairLists<Dim>::make_points(const Particles<Dim>& particles, const Settings
     Point p = points_[image.source];
     for (int a = 0; a < Dim; ++a) p.x[a] = image_position(settings.boundary, image, a, p.x[a]);
     points_.push_back(p);
+    if (ellipsoids_.empty()) continue;
+    Ellipsoid e = ellipsoids_[image.source];
+    for (int a = 0; a < Dim; ++a)
+      if (image.mirror[a] != 0) mirror_symmetric<Dim>(e.metric.data(), a);
+    ellipsoids_.push_back(e);
   }
 }
 
@@ -92,10 +111,11 @@ void PairLists<Dim>::make_clusters(const Particles<Dim>& particles, std::size_t 
 
 template <int Dim>
 void PairLists<Dim>::make_tree() {
-  auto enclose = [](Node& node, const auto& low, const auto& high, double support, double margin) {
+  auto enclose = [](Node& node, const auto& low, const auto& high, const auto& extent, double support, double margin) {
     for (int a = 0; a < Dim; ++a) {
       node.low[a] = std::min(node.low[a], low[a]);
       node.high[a] = std::max(node.high[a], high[a]);
+      node.extent[a] = std::max(node.extent[a], extent[a]);
     }
     node.support = std::max(node.support, support);
     node.margin = std::max(node.margin, margin);
@@ -109,14 +129,19 @@ void PairLists<Dim>::make_tree() {
   levels_.resize(depth);
   levels_[0].assign(leaves_.size(), empty);
   parallel_for(0, leaves_.size(), [&](std::size_t c) {
-    for (std::size_t i = leaves_[c].begin; i < leaves_[c].end; ++i)
-      enclose(levels_[0][c], points_[i].x, points_[i].x, points_[i].support, points_[i].margin);
+    for (std::size_t i = leaves_[c].begin; i < leaves_[c].end; ++i) {
+      std::array<double, Dim> extent;
+      extent.fill(points_[i].support);
+      enclose(levels_[0][c], points_[i].x, points_[i].x, ellipsoids_.empty() ? extent : ellipsoids_[i].extent,
+              points_[i].support, points_[i].margin);
+    }
   });
   for (std::size_t level = 1; level < depth; ++level) {
     const auto& below = levels_[level - 1];
     levels_[level].assign((below.size() + fan_out - 1) / fan_out, empty);
     for (std::size_t k = 0; k < below.size(); ++k)
-      enclose(levels_[level][k / fan_out], below[k].low, below[k].high, below[k].support, below[k].margin);
+      enclose(levels_[level][k / fan_out], below[k].low, below[k].high, below[k].extent, below[k].support,
+              below[k].margin);
   }
 }
 
@@ -124,24 +149,30 @@ template <int Dim>
 void PairLists<Dim>::search(std::size_t cluster, std::vector<std::uint32_t>& found) const {
   const Node& own = levels_[0][cluster];
   const Cluster& members = clusters_[cluster];
+  const bool tensor = !ellipsoids_.empty();
   auto near_node = [&](const Node& node) {
+    const double margin = own.margin + node.margin;
     double distance2 = 0;
     for (int a = 0; a < Dim; ++a) {
       const double gap = std::max({0.0, node.low[a] - own.high[a], own.low[a] - node.high[a]});
+      if (tensor && gap > std::max(own.extent[a], node.extent[a]) + margin) return false;
       distance2 += gap * gap;
     }
-    const double reach = std::max(own.support, node.support) + own.margin + node.margin;
+    const double reach = std::max(own.support, node.support) + margin;
     return distance2 < reach * reach;
   };
   const std::size_t groups = (members.end - members.begin + 7) / 8;
-  std::array<simd::Double8, 2> x[Dim], support, margin;
+  std::array<simd::Double8, 2> x[Dim], support, margin, metric[symmetric_size<Dim>], per_length;
   for (std::size_t g = 0; g < groups; ++g)
     for (int k = 0; k < 8; ++k) {
-      const Point& p =
-          points_[std::min<std::size_t>(members.begin + 8 * g + static_cast<std::size_t>(k), members.end - 1)];
+      const std::size_t i = std::min<std::size_t>(members.begin + 8 * g + static_cast<std::size_t>(k), members.end - 1);
+      const Point& p = points_[i];
       for (int a = 0; a < Dim; ++a) x[a][g][k] = p.x[a];
       support[g][k] = p.support;
       margin[g][k] = p.margin;
+      if (!tensor) continue;
+      for (int s = 0; s < symmetric_size<Dim>; ++s) metric[s][g][k] = ellipsoids_[i].metric[s];
+      per_length[g][k] = ellipsoids_[i].per_length;
     }
   auto near_any_member = [&](const Point& q) {
     for (std::size_t g = 0; g < groups; ++g) {
@@ -149,6 +180,28 @@ void PairLists<Dim>::search(std::size_t cluster, std::vector<std::uint32_t>& fou
       for (int a = 0; a < Dim; ++a) distance2 += (x[a][g] - q.x[a]) * (x[a][g] - q.x[a]);
       const simd::Double8 reach = simd::max(support[g], simd::Double8{} + q.support) + margin[g] + q.margin;
       if (simd::any_less(distance2, reach * reach)) return true;
+    }
+    return false;
+  };
+  // |H x| grows by at most |H| times the margin while the lists are in use.
+  auto ellipsoids_meet = [&](const Point& q, const Ellipsoid& e) {
+    for (std::size_t g = 0; g < groups; ++g) {
+      simd::Double8 dx[Dim], own_eta2{}, other_eta2{};
+      for (int a = 0; a < Dim; ++a) dx[a] = x[a][g] - q.x[a];
+      int s = Dim;
+      for (int a = 0; a < Dim; ++a) {
+        own_eta2 += metric[a][g] * dx[a] * dx[a];
+        other_eta2 += e.metric[a] * dx[a] * dx[a];
+        for (int b = a + 1; b < Dim; ++b, ++s) {
+          own_eta2 += 2 * metric[s][g] * dx[a] * dx[b];
+          other_eta2 += 2 * e.metric[s] * dx[a] * dx[b];
+        }
+      }
+      const simd::Double8 widening = margin[g] + q.margin;
+      const simd::Double8 own_reach = support_per_h_ + widening * per_length[g],
+                          other_reach = support_per_h_ + widening * e.per_length;
+      if (simd::any_less(own_eta2, own_reach * own_reach) || simd::any_less(other_eta2, other_reach * other_reach))
+        return true;
     }
     return false;
   };
@@ -160,7 +213,7 @@ void PairLists<Dim>::search(std::size_t cluster, std::vector<std::uint32_t>& fou
       return;
     }
     for (std::uint32_t j = leaves_[node].begin; j < leaves_[node].end; ++j)
-      if (near_any_member(points_[j])) found.push_back(j);
+      if (tensor ? ellipsoids_meet(points_[j], ellipsoids_[j]) : near_any_member(points_[j])) found.push_back(j);
   };
   for (std::size_t k = 0; k < levels_.back().size(); ++k) descend(descend, levels_.size() - 1, k);
 }
@@ -177,7 +230,15 @@ bool PairLists<Dim>::valid(const Particles<Dim>& particles, double elapsed) cons
       const double d = particles.column(Field::position, a)[i] - p.x[a] - drift_[a] * elapsed;
       moved2 += d * d;
     }
-    const double grown = std::max(0.0, support_per_h_ * h[i] - p.support);
+    double grown = 0;
+    if (ellipsoids_.empty()) {
+      grown = std::max(0.0, support_per_h_ * h[i] - p.support);
+    } else {
+      Symmetric<Dim> then;
+      for (int k = 0; k < symmetric_size<Dim>; ++k) then[k] = ellipsoids_[i].metric[k];
+      const double out = outgrowth<Dim>(matrix_of<Dim>(then), particles.symmetric(Field::smoothing_metric, i));
+      grown = (out - 1) * support_per_h_ / ellipsoids_[i].per_length;
+    }
     return p.margin - std::sqrt(moved2) - grown;
   });
   return slack.index == particles.size();
@@ -190,7 +251,8 @@ double PairLists<Dim>::mean_candidates() const {
 
 template <int Dim>
 std::size_t PairLists<Dim>::bytes() const {
-  std::size_t total = points_.capacity() * sizeof(Point) + images_.capacity() * sizeof(Image) +
+  std::size_t total = points_.capacity() * sizeof(Point) + ellipsoids_.capacity() * sizeof(Ellipsoid) +
+                      images_.capacity() * sizeof(Image) +
                       (clusters_.capacity() + leaves_.capacity()) * sizeof(Cluster);
   for (const auto& level : levels_) total += level.capacity() * sizeof(Node);
   for (const auto& list : block_lists_) total += list.capacity() * sizeof(std::uint32_t);

@@ -27,7 +27,8 @@ class PairLists {
 
   /// Builds the lists. Two particles are candidates if r < max(support h_i, support h_j) + margin_i + margin_j, where
   /// the margin of a particle covers its own motion relative to the mean for the horizon: fast or far-flung particles
-  /// widen their own search only.
+  /// widen their own search only. With smoothing tensors either ellipsoid may reach the other, |H_i x| < support or
+  /// |H_j x| < support, each widened by the margins.
   void build(const Particles<Dim>& particles, const Settings& settings);
 
   /// True while no particle has moved (or grown its support) by more than its margin since the lists were built at an
@@ -49,12 +50,18 @@ class PairLists {
 
  private:
   struct Node {
-    std::array<double, Dim> low, high;
+    std::array<double, Dim> low, high, extent{};  ///< extent: largest half width of a support along each axis
     double support = 0, margin = 0;
   };
   struct Point {
     std::array<double, Dim> x;
     double support, margin;
+  };
+  /// Reach of a particle with a smoothing tensor.
+  struct Ellipsoid {
+    std::array<double, symmetric_size<Dim>> metric;  ///< G = H H [1/m^2]
+    std::array<double, Dim> extent;                  ///< half of its bounding box at the support [m]
+    double per_length;                               ///< 1/shortest semi-axis of |H x| = 1 [1/m]
   };
   void make_points(const Particles<Dim>& particles, const Settings& settings);
   void make_clusters(const Particles<Dim>& particles, std::size_t cluster_size);
@@ -66,6 +73,7 @@ class PairLists {
   double support_per_h_ = 0;
   std::vector<Point> points_;          ///< particles, then images, as of the time of building
   Vec<Dim> drift_ = Vec<Dim>::Zero();  ///< mean velocity at that time [m/s]
+  std::vector<Ellipsoid> ellipsoids_;  ///< of the points; empty with isotropic smoothing
   std::vector<Image> images_;
   std::vector<Cluster> clusters_;  ///< of particles
   std::vector<Cluster> leaves_;    ///< clusters, then groups of images

@@ -57,6 +57,14 @@ class Particles {
     for (int k = 0; k < symmetric_size<Dim>; ++k) column(f, k)[i] = s[k];
   }
 
+  /// dv_a/dx_b [1/s], or what another field of that shape holds.
+  Mat<Dim> velocity_gradient(std::size_t i, Field f = Field::velocity_gradient) const {
+    Mat<Dim> L;
+    for (int a = 0; a < Dim; ++a)
+      for (int b = 0; b < Dim; ++b) L(a, b) = column(f, a * Dim + b)[i];
+    return L;
+  }
+
   /// Particles of one material are contiguous: the range of each, by material number.
   const std::vector<Range>& material_ranges() const { return material_ranges_; }
   void set_material_ranges(std::vector<Range> ranges) { material_ranges_ = std::move(ranges); }

@@ -4,13 +4,20 @@
 
 namespace ejecta {
 
-/// Defined in pair_pass_<kernel>_<dim>d.cpp, one file each so that they compile side by side.
+/// Defined in pair_pass_<kernel>_<dim>d.cpp and tensor_pass_<kernel>_<dim>d.cpp, one file each so that they compile
+/// side by side.
 template <int Dim, class K>
-std::unique_ptr<PairPass<Dim>> make_pair_pass_of(const PairPassSettings& settings);
+std::unique_ptr<PairPass<Dim>> make_isotropic_pass_of(const PairPassSettings& settings);
+template <int Dim, class K>
+std::unique_ptr<PairPass<Dim>> make_tensor_pass_of(const PairPassSettings& settings);
 
 template <int Dim>
 std::unique_ptr<PairPass<Dim>> make_pair_pass(const PairPassSettings& settings) {
-  return with_kernel(settings.kernel, [&](auto kernel) { return make_pair_pass_of<Dim, decltype(kernel)>(settings); });
+  return with_kernel(settings.kernel, [&](auto kernel) {
+    using K = decltype(kernel);
+    return settings.tensor || settings.coupled ? make_tensor_pass_of<Dim, K>(settings)
+                                               : make_isotropic_pass_of<Dim, K>(settings);
+  });
 }
 
 template std::unique_ptr<PairPass<2>> make_pair_pass<2>(const PairPassSettings&);

@@ -17,6 +17,8 @@ struct PairPassSettings {
   bool stress = false;               ///< full stress tensor; otherwise pressure alone
   bool velocity_gradient = false;    ///< store dv_a/dx_b (always with stress)
   bool gradient_correction = false;  ///< make it exact for linear velocity fields
+  bool tensor = false;               ///< smoothing tensors instead of lengths (velocity gradients always stored)
+  bool coupled = false;              ///< deviator cut off by cracks: tensor damage (always with stress)
   double viscosity_alpha = 1, viscosity_beta = 2;
   double length_unit = 1;  ///< a power of two near the particle spacing [m]
   Boundary boundary;
@@ -38,8 +40,10 @@ class PairPass {
   ///               if corrected
   /// [Monaghan 2005, eqs 2.37, 3.3; Randles & Libersky 1996 for the correction]; Pi is Monaghan's viscosity (1992),
   /// with the switch of Balsara (1995) and (1/rho_i + 1/rho_j)/2 as its 1/rho. The energy rate is each side's own share
-  /// of the work of the pair force, so the two shares of a pair add up to all of it. reads what pack_records reads;
-  /// writes acceleration, heating, neighbour_sum, approach_speed, velocity_gradient.
+  /// of the work of the pair force, so the two shares of a pair add up to all of it.
+  /// Coupled, the deviator of both sides is multiplied by f_ij = 1 - max(n.D_i n, n.D_j n), n the direction of the
+  /// pair, and coupled_gradient is the velocity gradient with the same weights. reads what PairRecord::pack reads;
+  /// writes acceleration, heating, neighbour_sum, approach_speed, velocity_gradient, coupled_gradient.
   virtual void rates(Particles<Dim>& particles, const PairLists<Dim>& lists, std::span<const double> intact) = 0;
 
   virtual std::size_t bytes() const = 0;

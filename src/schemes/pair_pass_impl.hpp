@@ -35,8 +35,8 @@ void separation(const V (&x)[Dim], const V (&x_low)[Dim], const T* j, V (&dx)[Di
 }
 
 /// (sigma . g)_a with sigma stored as xx yy xy | xx yy zz xy xz yz, or one number for an isotropic stress.
-template <bool Stress, int Dim, class V>
-void contract(const V* s, const V (&g)[Dim], V (&t)[Dim]) {
+template <bool Stress, int Dim, class Tensor, class V>
+void contract(const Tensor& s, const V (&g)[Dim], V (&t)[Dim]) {
   if constexpr (!Stress) {
     for (int a = 0; a < Dim; ++a) t[a] = s[0] * g[a];
   } else if constexpr (Dim == 2) {
@@ -49,39 +49,82 @@ void contract(const V* s, const V (&g)[Dim], V (&t)[Dim]) {
   }
 }
 
-/// sigma : L for the same storage and L row by row; for an isotropic stress L is its trace alone.
-template <bool Stress, bool Gradient, int Dim>
-double double_contract(const double* s, const double* L) {
-  if constexpr (!Gradient) return s[0] * L[0];
+/// x . D x for a symmetric D.
+template <int Dim, class Tensor, class V>
+V along(const Tensor& d, const V (&x)[Dim]) {
+  V image[Dim];
+  contract<true, Dim>(d, x, image);
+  V sum = x[0] * image[0];
+  for (int a = 1; a < Dim; ++a) sum += x[a] * image[a];
+  return sum;
+}
+
+/// sigma : L for the same storage; for an isotropic stress L is its trace alone if Stress is false.
+template <bool Stress, int Dim>
+double double_contract(const double* s, const Mat<Dim>& L) {
   if constexpr (!Stress) {
-    double trace = 0;
-    for (int a = 0; a < Dim; ++a) trace += L[a * Dim + a];
-    return s[0] * trace;
+    return s[0] * L.trace();
   } else if constexpr (Dim == 2) {
-    return s[0] * L[0] + s[1] * L[3] + s[2] * (L[1] + L[2]);
+    return s[0] * L(0, 0) + s[1] * L(1, 1) + s[2] * (L(0, 1) + L(1, 0));
   } else {
-    return s[0] * L[0] + s[1] * L[4] + s[2] * L[8] + s[3] * (L[1] + L[3]) + s[4] * (L[2] + L[6]) + s[5] * (L[5] + L[7]);
+    return s[0] * L(0, 0) + s[1] * L(1, 1) + s[2] * L(2, 2) + s[3] * (L(0, 1) + L(1, 0)) + s[4] * (L(0, 2) + L(2, 0)) +
+           s[5] * (L(1, 2) + L(2, 1));
   }
 }
 
-/// The inverse of a symmetric matrix sum (xx yy xy | xx yy zz xy xz yz), or the identity where the neighbours do not
-/// span space well enough: then the uncorrected form is the better estimate.
-template <int Dim>
-Mat<Dim> correction(const double* m) {
-  Mat<Dim> a;
-  if constexpr (Dim == 2) {
-    a << m[0], m[2], m[2], m[1];
-  } else {
-    a << m[0], m[3], m[4], m[3], m[1], m[5], m[4], m[5], m[2];
+/// Sums over neighbours that make a velocity gradient.
+template <class V, int Dim, bool Correction>
+struct GradientSum {
+  V sum[Dim * Dim] = {};               ///< m dv_a g_b
+  V spread[symmetric_size<Dim>] = {};  ///< m dx_a g_b, only if Correction
+
+  /// `weighted` is the kernel gradient times the mass of the partner.
+  void add(const V (&dx)[Dim], const V (&dv)[Dim], const V (&weighted)[Dim]) {
+    for (int a = 0; a < Dim; ++a)
+      for (int b = 0; b < Dim; ++b) sum[a * Dim + b] += dv[a] * weighted[b];
+    if constexpr (Correction) {
+      for (int a = 0; a < Dim; ++a) spread[a] += dx[a] * weighted[a];
+      int s = Dim;
+      for (int a = 0; a < Dim; ++a)
+        for (int b = a + 1; b < Dim; ++b) spread[s++] += dx[a] * weighted[b];
+    }
   }
-  constexpr double least_determinant = Dim == 2 ? 0.05 : 0.02;  // 1 in the interior, about 1/4 at an edge
-  if (!(a.determinant() > least_determinant)) return Mat<Dim>::Identity();
-  return a.inverse();
+  Mat<Dim> raw(int lane, double per_unit) const {
+    Mat<Dim> m;
+    for (int a = 0; a < Dim; ++a)
+      for (int b = 0; b < Dim; ++b) m(a, b) = static_cast<double>(sum[a * Dim + b][lane]) * per_unit;
+    return m;
+  }
+  /// dv_a/dx_b: the raw sum over the density, corrected by the inverse of the spread. Where the neighbours do not span
+  /// space well enough the uncorrected form is the better estimate.
+  Mat<Dim> gradient(int lane, double per_unit, double specific_volume) const {
+    const Mat<Dim> L = specific_volume * raw(lane, per_unit);
+    if constexpr (Correction) {
+      Symmetric<Dim> sums;
+      for (int s = 0; s < symmetric_size<Dim>; ++s) sums[s] = static_cast<double>(spread[s][lane]) * specific_volume;
+      const Mat<Dim> m = matrix_of<Dim>(sums);
+      constexpr double least_determinant = Dim == 2 ? 0.05 : 0.02;  // 1 in the interior, about 1/4 at an edge
+      if (m.determinant() > least_determinant) return L * m.inverse();
+    }
+    return L;
+  }
+};
+
+template <int Dim>
+void store(Particles<Dim>& particles, Field field, std::size_t i, const Mat<Dim>& m) {
+  for (int a = 0; a < Dim; ++a)
+    for (int b = 0; b < Dim; ++b) particles.column(field, a * Dim + b)[i] = m(a, b);
 }
 
 }  // namespace pair_detail
 
-template <class T, int Dim, bool Stress, bool Gradient, bool Correction, class K>
+/// Which of its parts a pass has; what is left out costs nothing.
+struct PassKind {
+  bool stress = false, gradient = false, correction = false, tensor = false, coupled = false;
+  constexpr RecordKind record() const { return {stress, tensor, coupled}; }
+};
+
+template <class T, int Dim, PassKind Kind, class K>
 class PairPassOf final : public PairPass<Dim> {
  public:
   explicit PairPassOf(const PairPassSettings& settings) : settings_(settings) {}
@@ -91,13 +134,15 @@ class PairPassOf final : public PairPass<Dim> {
   std::size_t bytes() const override { return records_.capacity() * sizeof(T); }
 
  private:
-  using R = PairRecord<T, Dim, Stress>;
+  using R = PairRecord<T, Dim, Kind.record()>;
   using V = simd::Vector<T, simd::lanes<T>>;
+  using Support = std::conditional_t<Kind.tensor, TensorSupport<V, Dim, K, R>, IsotropicSupport<V, Dim, K, R>>;
+  using GradientSum = pair_detail::GradientSum<V, Dim, Kind.correction>;
 
   /// A candidate as the lanes of a cluster see it.
   struct Partner {
     V dx[Dim], r2;  ///< x_j - x_i
-    typename IsotropicSupport<V, Dim, K>::Pair pair;
+    typename Support::Pair pair;
     const T* record;
   };
   /// Candidates go in batches through two short loops: who is within reach of any lane, and what passes between those.
@@ -125,33 +170,38 @@ class PairPassOf final : public PairPass<Dim> {
   std::vector<T> records_;
 };
 
-template <class T, int Dim, bool Stress, bool Gradient, bool Correction, class K>
-void PairPassOf<T, Dim, Stress, Gradient, Correction, K>::rates(Particles<Dim>& particles, const PairLists<Dim>& lists,
-                                                                std::span<const double> intact) {
-  pack_records<T, Dim, Stress>(particles, lists.images(), settings_.boundary, K::template norm<Dim>,
-                               settings_.length_unit, intact, records_);
+template <class T, int Dim, PassKind Kind, class K>
+void PairPassOf<T, Dim, Kind, K>::rates(Particles<Dim>& particles, const PairLists<Dim>& lists,
+                                        std::span<const double> intact) {
+  R::pack(particles, lists.images(), settings_.boundary, K::template norm<Dim>, settings_.length_unit, intact,
+          records_);
   for_clusters(lists, [&](const Cluster& c, auto candidates) { cluster_rates(particles, c, candidates); });
 }
 
-template <class T, int Dim, bool Stress, bool Gradient, bool Correction, class K>
-void PairPassOf<T, Dim, Stress, Gradient, Correction, K>::cluster_rates(
-    Particles<Dim>& particles, const Cluster& c, std::span<const std::uint32_t> candidates) const {
+template <class T, int Dim, PassKind Kind, class K>
+void PairPassOf<T, Dim, Kind, K>::cluster_rates(Particles<Dim>& particles, const Cluster& c,
+                                                std::span<const std::uint32_t> candidates) const {
   const T* records = records_.data();
   auto load = [&](int place) { return pair_detail::load<V>(c, records, R::size, place); };
-  V x[Dim], x_low[Dim], v[Dim], stress[R::stresses];
+  V x[Dim], x_low[Dim], v[Dim], stress[R::stresses], pressure{}, damage[symmetric_size<Dim>];
   for (int a = 0; a < Dim; ++a) {
     x[a] = load(R::x + a);
     if constexpr (R::split) x_low[a] = load(R::x_low + a);
     v[a] = load(R::v + a);
   }
   for (int s = 0; s < R::stresses; ++s) stress[s] = load(R::stress + s);
-  const IsotropicSupport<V, Dim, K> support{load(R::h), load(R::h_reciprocal), load(R::slope_norm)};
+  if constexpr (Kind.coupled) {
+    pressure = load(R::pressure);
+    for (int s = 0; s < symmetric_size<Dim>; ++s) damage[s] = load(R::damage + s);
+  }
+  const Support support{load};
   const V density_reciprocal = load(R::density_reciprocal), sound_speed = load(R::sound_speed),
           shear_switch = load(R::shear_switch);
   const T alpha = static_cast<T>(settings_.viscosity_alpha), beta = static_cast<T>(settings_.viscosity_beta);
 
   simd::WideSum<T> acceleration[Dim], viscous_heating;
-  V gradient[Gradient ? Dim * Dim : 1] = {}, spread[symmetric_size<Dim>] = {}, moment{}, fastest{};
+  [[maybe_unused]] GradientSum gradient, coupled;
+  V divergence{}, moment{}, fastest{};
   Partner partners[batch];
   for (std::size_t begin = 0; begin < candidates.size(); begin += batch) {
     const std::size_t end = std::min(begin + batch, candidates.size());
@@ -161,53 +211,51 @@ void PairPassOf<T, Dim, Stress, Gradient, Correction, K>::cluster_rates(
       Partner& p = partners[place - begin];
       p.record = records + static_cast<std::size_t>(candidates[place]) * R::size;
       pair_detail::separation<V, R, Dim>(x, x_low, p.record, p.dx, p.r2);
-      p.pair = support.template pair<R>(p.r2, p.record);
+      p.pair = support.pair(p.dx, p.r2, p.record);
       moment += p.pair.moment;
-      reached |= std::uint64_t{simd::any_less(V{}, p.pair.slope)} << (place - begin);
+      reached |= std::uint64_t{simd::any_less(V{}, p.pair.reach())} << (place - begin);
     }
     for (; reached != 0; reached &= reached - 1) {
       const Partner& p = partners[std::countr_zero(reached)];
       const T* j = p.record;
       V dv[Dim], kernel_gradient[Dim];
-      for (int a = 0; a < Dim; ++a) {
-        dv[a] = j[R::v + a] - v[a];
-        kernel_gradient[a] = p.pair.slope * p.dx[a];
-      }
-      V approach = dv[0] * p.dx[0], work = dv[0] * kernel_gradient[0];
-      for (int a = 1; a < Dim; ++a) {
-        approach += dv[a] * p.dx[a];
-        work += dv[a] * kernel_gradient[a];
-      }
-      // Monaghan (1992): mu = h v.x / (r^2 + 0.01 h^2) while approaching, Pi = (-alpha c mu + beta mu^2) / rho. Here mu
-      // <= 0.
-      const V mean_h = support.template mean_h<R>(j);
-      const V mu = mean_h * simd::min(approach, V{}) * simd::reciprocal(V(p.r2 + T(0.01) * mean_h * mean_h));
+      for (int a = 0; a < Dim; ++a) dv[a] = j[R::v + a] - v[a];
+      p.pair.gradient(p.dx, kernel_gradient);
+      V work = dv[0] * kernel_gradient[0];
+      for (int a = 1; a < Dim; ++a) work += dv[a] * kernel_gradient[a];
+      // Monaghan (1992): Pi = (-alpha c mu + beta mu^2) / rho. Here mu <= 0.
+      const V mu = support.approach(p.pair, p.dx, p.r2, dv, work, kernel_gradient, j);
       const V sound = T(0.5) * (sound_speed + j[R::sound_speed]);
       const V viscosity = T(0.5) * (shear_switch + j[R::shear_switch]) *
                           (T(0.5) * (density_reciprocal + j[R::density_reciprocal])) *
                           (mu * (beta * mu - alpha * sound));
       // sigma_i/rho_i^2 + sigma_j/rho_j^2 - Pi I
-      V total[R::stresses], force[Dim];
+      V total[R::stresses], force[Dim], intact{};
       for (int s = 0; s < R::stresses; ++s) total[s] = stress[s] + j[R::stress + s];
-      for (int s = 0; s < (Stress ? Dim : 1); ++s) total[s] -= viscosity;
-      pair_detail::contract<Stress, Dim>(total, kernel_gradient, force);
+      V isotropic = -viscosity;
+      if constexpr (Kind.coupled) {
+        // A crack of either side across the line of the pair takes the deviator off it: f = 1 - max(n.D_i n, n.D_j n).
+        const V across = simd::max(pair_detail::along<Dim>(damage, p.dx), pair_detail::along<Dim>(j + R::damage, p.dx));
+        intact = simd::max(V(T(1) - across * simd::reciprocal(V(p.r2 + support_detail::guard<T>))), V{});
+        for (int s = 0; s < R::stresses; ++s) total[s] *= intact;
+        isotropic += pressure + j[R::pressure];
+      }
+      for (int s = 0; s < (Kind.stress ? Dim : 1); ++s) total[s] += isotropic;
+      pair_detail::contract<Kind.stress, Dim>(total, kernel_gradient, force);
 
       const T mass = j[R::mass];
       for (int a = 0; a < Dim; ++a) acceleration[a].add(mass, force[a]);
       viscous_heating.add(mass, V(viscosity * work));
-      if constexpr (Gradient) {
+      if constexpr (Kind.gradient) {
         V weighted[Dim];
         for (int b = 0; b < Dim; ++b) weighted[b] = mass * kernel_gradient[b];
-        for (int a = 0; a < Dim; ++a)
-          for (int b = 0; b < Dim; ++b) gradient[a * Dim + b] += dv[a] * weighted[b];
-        if constexpr (Correction) {
-          for (int a = 0; a < Dim; ++a) spread[a] += p.dx[a] * weighted[a];
-          int s = Dim;
-          for (int a = 0; a < Dim; ++a)
-            for (int b = a + 1; b < Dim; ++b) spread[s++] += p.dx[a] * weighted[b];
+        gradient.add(p.dx, dv, weighted);
+        if constexpr (Kind.coupled) {
+          for (int b = 0; b < Dim; ++b) weighted[b] *= intact;
+          coupled.add(p.dx, dv, weighted);
         }
       } else {
-        gradient[0] += mass * work;
+        divergence += mass * work;
       }
       fastest = simd::min(fastest, V(p.pair.moment > 0 ? mu : V{}));
     }
@@ -217,40 +265,37 @@ void PairPassOf<T, Dim, Stress, Gradient, Correction, K>::cluster_rates(
   for (std::size_t i = c.begin; i < c.end; ++i) {
     const int k = static_cast<int>(i - c.begin);
     for (int a = 0; a < Dim; ++a) particles.column(Field::acceleration, a)[i] = acceleration[a].lane(k) * per_unit;
-    double own_stress[R::stresses], raw[Gradient ? Dim * Dim : 1];
+    double own_stress[R::stresses];
     for (int s = 0; s < R::stresses; ++s) own_stress[s] = static_cast<double>(stress[s][k]);
-    for (int s = 0; s < (Gradient ? Dim * Dim : 1); ++s) raw[s] = static_cast<double>(gradient[s][k]) * per_unit;
-    particles.column(Field::heating)[i] =
-        pair_detail::double_contract<Stress, Gradient, Dim>(own_stress, raw) - 0.5 * viscous_heating.lane(k) * per_unit;
+    double work = 0;  // of the stress, sigma : L / rho
+    if constexpr (Kind.gradient) {
+      const double specific_volume = 1 / particles.column(Field::density)[i];
+      pair_detail::store(particles, Field::velocity_gradient, i, gradient.gradient(k, per_unit, specific_volume));
+      if constexpr (Kind.coupled) {
+        pair_detail::store(particles, Field::coupled_gradient, i, coupled.gradient(k, per_unit, specific_volume));
+        work = pair_detail::double_contract<true, Dim>(own_stress, coupled.raw(k, per_unit)) +
+               static_cast<double>(pressure[k]) * gradient.raw(k, per_unit).trace();
+      } else {
+        work = pair_detail::double_contract<Kind.stress, Dim>(own_stress, gradient.raw(k, per_unit));
+      }
+    } else {
+      work = own_stress[0] * (static_cast<double>(divergence[k]) * per_unit);
+    }
+    particles.column(Field::heating)[i] = work - 0.5 * viscous_heating.lane(k) * per_unit;
     particles.column(Field::neighbour_sum)[i] = static_cast<double>(moment[k]);
     particles.column(Field::approach_speed)[i] = -static_cast<double>(fastest[k]);
-    if constexpr (Gradient) {
-      const double specific_volume = 1 / particles.column(Field::density)[i];
-      Mat<Dim> L;
-      for (int a = 0; a < Dim; ++a)
-        for (int b = 0; b < Dim; ++b) L(a, b) = raw[a * Dim + b] * specific_volume;
-      if constexpr (Correction) {
-        double sums[symmetric_size<Dim>];
-        for (int s = 0; s < symmetric_size<Dim>; ++s) sums[s] = static_cast<double>(spread[s][k]) * specific_volume;
-        L = (L * pair_detail::correction<Dim>(sums)).eval();
-      }
-      for (int a = 0; a < Dim; ++a)
-        for (int b = 0; b < Dim; ++b) particles.column(Field::velocity_gradient, a * Dim + b)[i] = L(a, b);
-    }
   }
 }
 
-template <class T, int Dim, bool Stress, bool Gradient, bool Correction, class K>
-void PairPassOf<T, Dim, Stress, Gradient, Correction, K>::density(Particles<Dim>& particles,
-                                                                  const PairLists<Dim>& lists) {
-  pack_records<T, Dim, Stress>(particles, lists.images(), settings_.boundary, K::template norm<Dim>,
-                               settings_.length_unit, {}, records_);
+template <class T, int Dim, PassKind Kind, class K>
+void PairPassOf<T, Dim, Kind, K>::density(Particles<Dim>& particles, const PairLists<Dim>& lists) {
+  R::pack(particles, lists.images(), settings_.boundary, K::template norm<Dim>, settings_.length_unit, {}, records_);
   for_clusters(lists, [&](const Cluster& c, auto candidates) { cluster_density(particles, c, candidates); });
 }
 
-template <class T, int Dim, bool Stress, bool Gradient, bool Correction, class K>
-void PairPassOf<T, Dim, Stress, Gradient, Correction, K>::cluster_density(
-    Particles<Dim>& particles, const Cluster& c, std::span<const std::uint32_t> candidates) const {
+template <class T, int Dim, PassKind Kind, class K>
+void PairPassOf<T, Dim, Kind, K>::cluster_density(Particles<Dim>& particles, const Cluster& c,
+                                                  std::span<const std::uint32_t> candidates) const {
   const T* records = records_.data();
   auto load = [&](int place) { return pair_detail::load<V>(c, records, R::size, place); };
   V x[Dim], x_low[Dim];
@@ -258,37 +303,54 @@ void PairPassOf<T, Dim, Stress, Gradient, Correction, K>::cluster_density(
     x[a] = load(R::x + a);
     if constexpr (R::split) x_low[a] = load(R::x_low + a);
   }
-  const V h_reciprocal = load(R::h_reciprocal);
+  const Support support{load};
   simd::WideSum<T> density;
-  V moment{};
-  constexpr T guard = sizeof(T) == sizeof(float) ? T(1e-30) : T(1e-200);
+  V sum{};
   for (const std::uint32_t index : candidates) {
     const T* j = records + static_cast<std::size_t>(index) * R::size;
-    V dx[Dim], r2;
+    V dx[Dim], r2, w, moment;
     pair_detail::separation<V, R, Dim>(x, x_low, j, dx, r2);
-    const V r_reciprocal = simd::reciprocal_sqrt(V(r2 + guard));
-    const V q = r2 * r_reciprocal * h_reciprocal;
-    density.add(j[R::mass], K::value(q));
-    moment -= q * K::slope_over_q(q, V(simd::reciprocal(V(q + guard))));
+    support.value(dx, r2, w, moment);
+    density.add(j[R::mass], w);
+    sum += moment;
   }
   for (std::size_t i = c.begin; i < c.end; ++i) {
     const int k = static_cast<int>(i - c.begin);
-    const double n = static_cast<double>(h_reciprocal[k]);
-    particles.column(Field::density)[i] = K::template norm<Dim> * (Dim == 2 ? n * n : n * n * n) * density.lane(k);
-    particles.column(Field::neighbour_sum)[i] = static_cast<double>(moment[k]);
+    particles.column(Field::density)[i] = support.norm(k) * density.lane(k);
+    particles.column(Field::neighbour_sum)[i] = static_cast<double>(sum[k]);
   }
 }
 
-/// The pass of one kernel for what the settings ask.
+/// The pass of one kernel for what the settings ask, with smoothing lengths.
 template <int Dim, class K>
-std::unique_ptr<PairPass<Dim>> make_pair_pass_of(const PairPassSettings& s) {
+std::unique_ptr<PairPass<Dim>> make_isotropic_pass_of(const PairPassSettings& s) {
   auto of_precision = [&]<class T>(T) -> std::unique_ptr<PairPass<Dim>> {
-    if (s.stress && s.gradient_correction) return std::make_unique<PairPassOf<T, Dim, true, true, true, K>>(s);
-    if (s.stress) return std::make_unique<PairPassOf<T, Dim, true, true, false, K>>(s);
+    auto of = [&]<PassKind Kind>() { return std::make_unique<PairPassOf<T, Dim, Kind, K>>(s); };
+    constexpr bool stress = true, gradient = true, correction = true;
+    if (s.stress && s.gradient_correction) return of.template operator()<PassKind{stress, gradient, correction}>();
+    if (s.stress) return of.template operator()<PassKind{stress, gradient}>();
     if (s.velocity_gradient && s.gradient_correction)
-      return std::make_unique<PairPassOf<T, Dim, false, true, true, K>>(s);
-    if (s.velocity_gradient) return std::make_unique<PairPassOf<T, Dim, false, true, false, K>>(s);
-    return std::make_unique<PairPassOf<T, Dim, false, false, false, K>>(s);
+      return of.template operator()<PassKind{!stress, gradient, correction}>();
+    if (s.velocity_gradient) return of.template operator()<PassKind{!stress, gradient}>();
+    return of.template operator()<PassKind{}>();
+  };
+  return s.precision == Precision::mixed ? of_precision(float{}) : of_precision(double{});
+}
+
+/// The same with smoothing tensors or with stress cut off by cracks: both always with velocity gradients.
+template <int Dim, class K>
+std::unique_ptr<PairPass<Dim>> make_tensor_pass_of(const PairPassSettings& s) {
+  auto of_precision = [&]<class T>(T) -> std::unique_ptr<PairPass<Dim>> {
+    auto of = [&]<PassKind Kind>() -> std::unique_ptr<PairPass<Dim>> {
+      constexpr PassKind corrected{Kind.stress, true, true, Kind.tensor, Kind.coupled};
+      if (s.gradient_correction) return std::make_unique<PairPassOf<T, Dim, corrected, K>>(s);
+      return std::make_unique<PairPassOf<T, Dim, Kind, K>>(s);
+    };
+    constexpr bool stress = true, gradient = true, tensor = true, coupled = true;
+    if (s.coupled && s.tensor) return of.template operator()<PassKind{stress, gradient, false, tensor, coupled}>();
+    if (s.coupled) return of.template operator()<PassKind{stress, gradient, false, !tensor, coupled}>();
+    if (s.stress) return of.template operator()<PassKind{stress, gradient, false, tensor}>();
+    return of.template operator()<PassKind{!stress, gradient, false, tensor}>();
   };
   return s.precision == Precision::mixed ? of_precision(float{}) : of_precision(double{});
 }

@@ -1,5 +1,5 @@
 #include "schemes/pair_pass_impl.hpp"
 
 namespace ejecta {
-template std::unique_ptr<PairPass<3>> make_pair_pass_of<3, QuinticSpline>(const PairPassSettings&);
+template std::unique_ptr<PairPass<3>> make_isotropic_pass_of<3, QuinticSpline>(const PairPassSettings&);
 }  // namespace ejecta

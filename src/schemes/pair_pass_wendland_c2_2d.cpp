@@ -1,5 +1,5 @@
 #include "schemes/pair_pass_impl.hpp"
 
 namespace ejecta {
-template std::unique_ptr<PairPass<2>> make_pair_pass_of<2, WendlandC2>(const PairPassSettings&);
+template std::unique_ptr<PairPass<2>> make_isotropic_pass_of<2, WendlandC2>(const PairPassSettings&);
 }  // namespace ejecta

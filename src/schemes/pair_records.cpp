@@ -23,71 +23,87 @@ void set_position(T* record, int axis, double x) {
 }
 
 /// Mirrors what changes sign at a face normal to `axis`.
-template <class T, class R, int Dim, bool Stress>
+template <class T, class R, int Dim, RecordKind Kind>
 void mirror(T* record, int axis) {
   record[R::v + axis] = -record[R::v + axis];
-  if constexpr (Stress && Dim == 2) record[R::stress + 2] = -record[R::stress + 2];
-  if constexpr (Stress && Dim == 3) {
-    constexpr int first_off_diagonal = 3;  // xy, xz, yz: each axis takes part in two of them
-    for (int pair = 0; pair < 3; ++pair)
-      if (pair != 2 - axis) {
-        T& shear = record[R::stress + first_off_diagonal + pair];
-        shear = -shear;
-      }
-  }
+  if constexpr (Kind.stress) mirror_symmetric<Dim>(record + R::stress, axis);
+  if constexpr (Kind.tensor) mirror_symmetric<Dim>(record + R::metric, axis);
+  if constexpr (Kind.coupled) mirror_symmetric<Dim>(record + R::damage, axis);
 }
+
+/// The columns of one field, looked up once.
+template <int Dim>
+struct Columns {
+  std::array<std::span<const double>, Dim * Dim> of{};
+  std::size_t count = 0;
+
+  Columns() = default;
+  Columns(const Particles<Dim>& particles, Field field)
+      : count(static_cast<std::size_t>(components(info(field).shape, Dim))) {
+    for (std::size_t k = 0; k < count; ++k) of[k] = particles.column(field, static_cast<int>(k));
+  }
+  double operator()(std::size_t k, std::size_t i) const { return of[k][i]; }
+};
 
 }  // namespace
 
-template <class T, int Dim, bool Stress>
-void pack_records(const Particles<Dim>& particles, const std::vector<Image>& images, const Boundary& boundary,
-                  double kernel_norm, double length_unit, std::span<const double> intact, std::vector<T>& records) {
-  using R = PairRecord<T, Dim, Stress>;
+template <class T, int Dim, RecordKind Kind>
+void PairRecord<T, Dim, Kind>::pack(const Particles<Dim>& particles, const std::vector<Image>& images,
+                                    const Boundary& boundary, double kernel_norm, double length_unit,
+                                    std::span<const double> intact, std::vector<T>& records) {
+  using R = PairRecord;
   const std::size_t n = particles.size(), needed = (n + images.size()) * R::size;
   if (records.size() < needed) records.resize(needed + needed / 8);
   const double to_unit = 1 / length_unit;
   const bool has_switch = particles.has(Field::shear_switch);
-  std::array<std::span<const double>, Dim> position, velocity;
-  for (int a = 0; a < Dim; ++a) {
-    position[a] = particles.column(Field::position, a);
-    velocity[a] = particles.column(Field::velocity, a);
-  }
-  std::array<std::span<const double>, Stress ? deviator_size<Dim> : 0> deviatoric_stress;
-  for (std::size_t k = 0; k < deviatoric_stress.size(); ++k)
-    deviatoric_stress[k] = particles.column(Field::deviatoric_stress, static_cast<int>(k));
+  const Columns<Dim> position(particles, Field::position), velocity(particles, Field::velocity);
+  Columns<Dim> deviatoric_stress, metric, damage;
+  if constexpr (Kind.stress) deviatoric_stress = {particles, Field::deviatoric_stress};
+  if constexpr (Kind.tensor) metric = {particles, Field::smoothing_metric};
+  if constexpr (Kind.coupled) damage = {particles, Field::damage_tensor};
   const auto shear_switch = has_switch ? particles.column(Field::shear_switch) : std::span<const double>{};
   const auto h = particles.column(Field::smoothing_length), mass = particles.column(Field::mass),
              density = particles.column(Field::density), pressure = particles.column(Field::pressure),
              sound_speed = particles.column(Field::sound_speed);
   parallel_for(0, n, [&](std::size_t i) {
     T* r = records.data() + i * R::size;
-    for (int a = 0; a < Dim; ++a) {
-      set_position<T, R, Dim>(r, a, position[a][i] * to_unit);
-      r[R::v + a] = static_cast<T>(velocity[a][i]);
+    for (std::size_t a = 0; a < Dim; ++a) {
+      set_position<T, R, Dim>(r, static_cast<int>(a), position(a, i) * to_unit);
+      r[R::v + a] = static_cast<T>(velocity(a, i));
     }
     const double h_reciprocal = length_unit / h[i], density_reciprocal = 1 / density[i];
-    r[R::h] = static_cast<T>(h[i] * to_unit);
-    r[R::h_reciprocal] = static_cast<T>(h_reciprocal);
-    r[R::slope_norm] = static_cast<T>(kernel_norm * power<Dim>(h_reciprocal) * h_reciprocal * h_reciprocal);
+    if constexpr (Kind.tensor) {
+      for (std::size_t k = 0; k < metric.count; ++k)
+        r[R::metric + k] = static_cast<T>(metric(k, i) * length_unit * length_unit);
+      r[R::slope_norm] = static_cast<T>(kernel_norm * power<Dim>(h_reciprocal));
+    } else {
+      r[R::h] = static_cast<T>(h[i] * to_unit);
+      r[R::h_reciprocal] = static_cast<T>(h_reciprocal);
+      r[R::slope_norm] = static_cast<T>(kernel_norm * power<Dim>(h_reciprocal) * h_reciprocal * h_reciprocal);
+    }
     r[R::mass] = static_cast<T>(mass[i] * power<Dim>(to_unit));
     r[R::density_reciprocal] = static_cast<T>(density_reciprocal);
     r[R::sound_speed] = static_cast<T>(sound_speed[i]);
     r[R::shear_switch] = has_switch ? static_cast<T>(shear_switch[i]) : T(1);
     const double per_density2 = density_reciprocal * density_reciprocal;
-    if constexpr (!Stress) {
+    if constexpr (!Kind.stress) {
       r[R::stress] = static_cast<T>(-pressure[i] * per_density2);
     } else {
-      const double scale = intact.empty() ? 1.0 : intact[i];
-      auto deviator = [&](int k) { return scale * deviatoric_stress[k][i]; };
+      const double scale = intact.empty() ? 1.0 : intact[i], own_pressure = Kind.coupled ? 0.0 : pressure[i];
+      auto deviator = [&](std::size_t k) { return scale * deviatoric_stress(k, i); };
       T* s = r + R::stress;
-      s[0] = static_cast<T>((deviator(0) - pressure[i]) * per_density2);
-      s[1] = static_cast<T>((deviator(1) - pressure[i]) * per_density2);
+      s[0] = static_cast<T>((deviator(0) - own_pressure) * per_density2);
+      s[1] = static_cast<T>((deviator(1) - own_pressure) * per_density2);
       if constexpr (Dim == 2) {
         s[2] = static_cast<T>(deviator(2) * per_density2);
       } else {
-        s[2] = static_cast<T>((-deviator(0) - deviator(1) - pressure[i]) * per_density2);
-        for (int k = 2; k < 5; ++k) s[k + 1] = static_cast<T>(deviator(k) * per_density2);
+        s[2] = static_cast<T>((-deviator(0) - deviator(1) - own_pressure) * per_density2);
+        for (std::size_t k = 2; k < 5; ++k) s[k + 1] = static_cast<T>(deviator(k) * per_density2);
       }
+    }
+    if constexpr (Kind.coupled) {
+      r[R::pressure] = static_cast<T>(-pressure[i] * per_density2);
+      for (std::size_t k = 0; k < damage.count; ++k) r[R::damage + k] = static_cast<T>(damage(k, i));
     }
   });
   for (std::size_t k = 0; k < images.size(); ++k) {
@@ -98,26 +114,35 @@ void pack_records(const Particles<Dim>& particles, const std::vector<Image>& ima
       if (image.shift[a] == 0 && image.mirror[a] == 0) continue;
       const double x = particles.column(Field::position, a)[image.source];
       set_position<T, R, Dim>(r, a, image_position(boundary, image, a, x) * to_unit);
-      if (image.mirror[a] != 0) mirror<T, R, Dim, Stress>(r, a);
+      if (image.mirror[a] != 0) mirror<T, R, Dim, Kind>(r, a);
     }
   }
 }
 
-template void pack_records<double, 2, false>(const Particles<2>&, const std::vector<Image>&, const Boundary&, double,
-                                             double, std::span<const double>, std::vector<double>&);
-template void pack_records<double, 2, true>(const Particles<2>&, const std::vector<Image>&, const Boundary&, double,
-                                            double, std::span<const double>, std::vector<double>&);
-template void pack_records<float, 2, false>(const Particles<2>&, const std::vector<Image>&, const Boundary&, double,
-                                            double, std::span<const double>, std::vector<float>&);
-template void pack_records<float, 2, true>(const Particles<2>&, const std::vector<Image>&, const Boundary&, double,
-                                           double, std::span<const double>, std::vector<float>&);
-template void pack_records<double, 3, false>(const Particles<3>&, const std::vector<Image>&, const Boundary&, double,
-                                             double, std::span<const double>, std::vector<double>&);
-template void pack_records<double, 3, true>(const Particles<3>&, const std::vector<Image>&, const Boundary&, double,
-                                            double, std::span<const double>, std::vector<double>&);
-template void pack_records<float, 3, false>(const Particles<3>&, const std::vector<Image>&, const Boundary&, double,
-                                            double, std::span<const double>, std::vector<float>&);
-template void pack_records<float, 3, true>(const Particles<3>&, const std::vector<Image>&, const Boundary&, double,
-                                           double, std::span<const double>, std::vector<float>&);
+// stress, tensor, coupled
+template struct PairRecord<double, 2, RecordKind{false, false, false}>;
+template struct PairRecord<double, 2, RecordKind{true, false, false}>;
+template struct PairRecord<double, 2, RecordKind{false, true, false}>;
+template struct PairRecord<double, 2, RecordKind{true, true, false}>;
+template struct PairRecord<double, 2, RecordKind{true, false, true}>;
+template struct PairRecord<double, 2, RecordKind{true, true, true}>;
+template struct PairRecord<double, 3, RecordKind{false, false, false}>;
+template struct PairRecord<double, 3, RecordKind{true, false, false}>;
+template struct PairRecord<double, 3, RecordKind{false, true, false}>;
+template struct PairRecord<double, 3, RecordKind{true, true, false}>;
+template struct PairRecord<double, 3, RecordKind{true, false, true}>;
+template struct PairRecord<double, 3, RecordKind{true, true, true}>;
+template struct PairRecord<float, 2, RecordKind{false, false, false}>;
+template struct PairRecord<float, 2, RecordKind{true, false, false}>;
+template struct PairRecord<float, 2, RecordKind{false, true, false}>;
+template struct PairRecord<float, 2, RecordKind{true, true, false}>;
+template struct PairRecord<float, 2, RecordKind{true, false, true}>;
+template struct PairRecord<float, 2, RecordKind{true, true, true}>;
+template struct PairRecord<float, 3, RecordKind{false, false, false}>;
+template struct PairRecord<float, 3, RecordKind{true, false, false}>;
+template struct PairRecord<float, 3, RecordKind{false, true, false}>;
+template struct PairRecord<float, 3, RecordKind{true, true, false}>;
+template struct PairRecord<float, 3, RecordKind{true, false, true}>;
+template struct PairRecord<float, 3, RecordKind{true, true, true}>;
 
 }  // namespace ejecta

@@ -1,28 +1,40 @@
 #pragma once
-/// Support axis of a scheme: how the smoothing of two particles makes the kernel gradient of their pair.
+/// Support axis of a scheme: how the smoothing of two particles makes the kernel gradient of their pair. Lanes i
+/// against one partner j; the gradient is the mean of those with the smoothing of i and of j, so it is antisymmetric.
 #include "schemes/kernels.hpp"
 #include "schemes/pair_records.hpp"
 
 namespace ejecta {
 
-/// Isotropic smoothing length h (SPH). Lanes i against one partner j; the gradient is the mean of those with h_i and
-/// h_j.
-template <class V, int Dim, class K>
+namespace support_detail {
+/// A particle is its own partner too: the guard keeps a distance of 0 finite, and x_j - x_i = 0 makes all its terms
+/// vanish.
+template <class S>
+constexpr S guard = sizeof(S) == sizeof(float) ? S(1e-30) : S(1e-200);
+}  // namespace support_detail
+
+/// Isotropic smoothing length h (SPH).
+template <class V, int Dim, class K, class R>
 struct IsotropicSupport {
   using S = kernel_detail::Scalar<V>;
   V h, h_reciprocal, slope_norm;  ///< of the lanes i
 
+  template <class Load>
+  explicit IsotropicSupport(Load&& load)
+      : h(load(R::h)), h_reciprocal(load(R::h_reciprocal)), slope_norm(load(R::slope_norm)) {}
+
   struct Pair {
     V slope;   ///< grad_i W_ij = slope (x_j - x_i); 0 exactly where neither reaches the other
-    V moment;  ///< |dW/deta| at eta_i = r/h_i
+    V moment;  ///< |dW/deta| at eta_i = r/h_i, without the norm of the kernel
+    V reach() const { return slope; }
+    void gradient(const V (&dx)[Dim], V (&g)[Dim]) const {
+      for (int a = 0; a < Dim; ++a) g[a] = slope * dx[a];
+    }
   };
 
-  /// r2 = |x_j - x_i|^2; `j` is the record of the partner with layout R.
-  template <class R>
-  Pair pair(V r2, const S* j) const {
-    // A particle is its own partner too: the guard keeps r = 0 finite, and dx = 0 makes all its terms vanish.
-    constexpr S guard = sizeof(S) == sizeof(float) ? S(1e-30) : S(1e-200);
-    const V r_reciprocal = simd::reciprocal_sqrt(V(r2 + guard));
+  /// r2 = |x_j - x_i|^2; `j` is the record of the partner.
+  Pair pair(const V (&)[Dim], V r2, const S* j) const {
+    const V r_reciprocal = simd::reciprocal_sqrt(V(r2 + support_detail::guard<S>));
     const V r = r2 * r_reciprocal;
     const V q_i = r * h_reciprocal, q_j = r * j[R::h_reciprocal];
     const V slope_i = K::slope_over_q(q_i, V(h * r_reciprocal));
@@ -31,9 +43,102 @@ struct IsotropicSupport {
     const V slope = S(-0.5) * (simd::rounded(V(slope_i * slope_norm)) + simd::rounded(V(slope_j * j[R::slope_norm])));
     return {slope, -q_i * slope_i};
   }
-  template <class R>
-  V mean_h(const S* j) const {
-    return S(0.5) * (h + j[R::h]);
+
+  /// Speed of approach in Monaghan's viscosity (1992): mu = h v.x / (r^2 + 0.01 h^2) <= 0, with h the mean of both.
+  V approach(const Pair&, const V (&dx)[Dim], V r2, const V (&dv)[Dim], V, const V (&)[Dim], const S* j) const {
+    V along = dv[0] * dx[0];
+    for (int a = 1; a < Dim; ++a) along += dv[a] * dx[a];
+    const V mean_h = S(0.5) * (h + j[R::h]);
+    return mean_h * simd::min(along, V{}) * simd::reciprocal(V(r2 + S(0.01) * mean_h * mean_h));
+  }
+
+  /// Kernel value and |dW/deta| at eta_i, both without norm.
+  void value(const V (&)[Dim], V r2, V& w, V& moment) const {
+    const V q = r2 * simd::reciprocal_sqrt(V(r2 + support_detail::guard<S>)) * h_reciprocal;
+    w = K::value(q);
+    moment = -q * K::slope_over_q(q, V(simd::reciprocal(V(q + support_detail::guard<S>))));
+  }
+  /// Norm of the kernel of lane k [1/unit^Dim].
+  double norm(int k) const {
+    const double n = static_cast<double>(h_reciprocal[k]);
+    return K::template norm<Dim> * (Dim == 2 ? n * n : n * n * n);
+  }
+};
+
+/// Smoothing tensor H by its metric G = H H (ASPH): W = norm det(H) w(|H x|), grad W = norm det(H) w'/|H x| G x
+/// [Owen et al. 1998; Owen 2010].
+template <class V, int Dim, class K, class R>
+struct TensorSupport {
+  using S = kernel_detail::Scalar<V>;
+  V metric[symmetric_size<Dim>], slope_norm;  ///< of the lanes i
+
+  template <class Load>
+  explicit TensorSupport(Load&& load) : slope_norm(load(R::slope_norm)) {
+    for (int s = 0; s < symmetric_size<Dim>; ++s) metric[s] = load(R::metric + s);
+  }
+
+  struct Pair {
+    V along[Dim];  ///< grad_i W_ij
+    V moment;      ///< |dW/deta| at eta_i = |H_i x|, without the norm of the kernel
+    V weight;      ///< > 0 exactly where one reaches the other
+    V mean_eta;
+    V reach() const { return weight; }
+    void gradient(const V (&)[Dim], V (&g)[Dim]) const {
+      for (int a = 0; a < Dim; ++a) g[a] = along[a];
+    }
+  };
+
+  Pair pair(const V (&dx)[Dim], V, const S* j) const {
+    V image_i[Dim], image_j[Dim];  // G x
+    const V eta2_i = product(metric, dx, image_i), eta2_j = product(j + R::metric, dx, image_j);
+    const V reciprocal_i = simd::reciprocal_sqrt(V(eta2_i + support_detail::guard<S>));
+    const V reciprocal_j = simd::reciprocal_sqrt(V(eta2_j + support_detail::guard<S>));
+    const V q_i = eta2_i * reciprocal_i, q_j = eta2_j * reciprocal_j;
+    const V slope_i = K::slope_over_q(q_i, reciprocal_i), slope_j = K::slope_over_q(q_j, reciprocal_j);
+    const V weight_i = simd::rounded(V(slope_i * slope_norm)), weight_j = simd::rounded(V(slope_j * j[R::slope_norm]));
+    Pair p;
+    // As above: products are rounded before the sum.
+    for (int a = 0; a < Dim; ++a)
+      p.along[a] = S(-0.5) * (simd::rounded(V(weight_i * image_i[a])) + simd::rounded(V(weight_j * image_j[a])));
+    p.moment = -q_i * slope_i;
+    p.weight = -(weight_i + weight_j);
+    p.mean_eta = S(0.5) * (q_i + q_j);
+    return p;
+  }
+
+  /// Monaghan's mu with the direction of the kernel gradient in place of that of the pair, and eta in place of r/h:
+  /// mu = v.n eta/(eta^2 + 0.01). The viscous force is along n, so its work always heats.
+  V approach(const Pair& p, const V (&)[Dim], V, const V (&)[Dim], V work, const V (&g)[Dim], const S*) const {
+    V g2 = g[0] * g[0];
+    for (int a = 1; a < Dim; ++a) g2 += g[a] * g[a];
+    const V eta = p.mean_eta;
+    return simd::min(work, V{}) * simd::reciprocal_sqrt(V(g2 + support_detail::guard<S>)) * eta *
+           simd::reciprocal(V(eta * eta + S(0.01)));
+  }
+
+  void value(const V (&dx)[Dim], V, V& w, V& moment) const {
+    V image[Dim];
+    const V eta2 = product(metric, dx, image);
+    const V reciprocal = simd::reciprocal_sqrt(V(eta2 + support_detail::guard<S>)), q = eta2 * reciprocal;
+    w = K::value(q);
+    moment = -q * K::slope_over_q(q, reciprocal);
+  }
+  double norm(int k) const { return static_cast<double>(slope_norm[k]); }
+
+ private:
+  /// y = G x; returns x.y.
+  template <class G>
+  static V product(const G& g, const V (&x)[Dim], V (&y)[Dim]) {
+    if constexpr (Dim == 2) {
+      y[0] = g[0] * x[0] + g[2] * x[1];
+      y[1] = g[2] * x[0] + g[1] * x[1];
+      return x[0] * y[0] + x[1] * y[1];
+    } else {
+      y[0] = g[0] * x[0] + g[3] * x[1] + g[4] * x[2];
+      y[1] = g[3] * x[0] + g[1] * x[1] + g[5] * x[2];
+      y[2] = g[4] * x[0] + g[5] * x[1] + g[2] * x[2];
+      return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
+    }
   }
 };
 

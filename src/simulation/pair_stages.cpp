@@ -8,14 +8,6 @@ namespace ejecta {
 
 namespace {
 
-template <int Dim>
-Mat<Dim> velocity_gradient(const Particles<Dim>& p, std::size_t i) {
-  Mat<Dim> L;
-  for (int a = 0; a < Dim; ++a)
-    for (int b = 0; b < Dim; ++b) L(a, b) = p.column(Field::velocity_gradient, a * Dim + b)[i];
-  return L;
-}
-
 /// Magnitude of the curl [1/s].
 template <int Dim>
 double curl(const Mat<Dim>& L) {
@@ -23,28 +15,7 @@ double curl(const Mat<Dim>& L) {
   if constexpr (Dim == 3) return Vec<3>(L(2, 1) - L(1, 2), L(0, 2) - L(2, 0), L(1, 0) - L(0, 1)).norm();
 }
 
-/// Bounds on h relative to that of the body's lattice: solids must not reach out for neighbours that have flown away; a
-/// gas may follow its expansion, and compression by 8000 in 3D.
-constexpr double least_relative_h = 0.25, gas_range = 20;
-
 }  // namespace
-
-template <int Dim>
-void smoothing_lengths(Simulation<Dim>& sim) {
-  Particles<Dim>& p = sim.particles;
-  for (std::size_t m = 0; m < sim.materials.size(); ++m) {
-    const Material& material = sim.materials[m];
-    const Range range = p.material_ranges()[m];
-    const double least = material.solid() ? least_relative_h : 1 / gas_range;
-    const double most = material.solid() ? sim.scene.numerics.smoothing_growth : gas_range;
-    parallel_for(range.begin, range.end, [&](std::size_t i) {
-      const Body& body = sim.scene.bodies[static_cast<std::size_t>(p.label(Label::body)[i])];
-      const double h0 = sim.scene.numerics.nodes_per_h * sim.scene.spacing * body.spacing_factor;
-      double& h = p.column(Field::smoothing_length)[i];
-      h = std::clamp(h * sim.support->growth(p.column(Field::neighbour_sum)[i]), least * h0, most * h0);
-    });
-  }
-}
 
 template <int Dim>
 void summation_density(Simulation<Dim>& sim) {
@@ -71,7 +42,7 @@ void strain_rates(Simulation<Dim>& sim) {
     const Material& material = sim.materials[m];
     const Range range = p.material_ranges()[m];
     parallel_for(range.begin, range.end, [&](std::size_t i) {
-      const Mat<Dim> L = velocity_gradient(p, i);
+      const Mat<Dim> L = p.velocity_gradient(i);
       const double compression = -L.trace();  // (1/rho) drho/dt
       if (continuity) p.column(Field::density_rate)[i] = p.column(Field::density)[i] * compression;
       if (!material.solid()) return;
@@ -96,15 +67,13 @@ void shear_switch(Simulation<Dim>& sim) {
   // Balsara (1995): |div v| / (|div v| + |curl v| + 1e-4 c/h)
   Particles<Dim>& p = sim.particles;
   parallel_for(0, p.size(), [&](std::size_t i) {
-    const Mat<Dim> L = velocity_gradient(p, i);
+    const Mat<Dim> L = p.velocity_gradient(i);
     const double divergence = std::abs(L.trace());
     const double floor = 1e-4 * p.column(Field::sound_speed)[i] / p.column(Field::smoothing_length)[i];
     p.column(Field::shear_switch)[i] = divergence / (divergence + curl<Dim>(L) + floor);
   });
 }
 
-template void smoothing_lengths<2>(Simulation<2>&);
-template void smoothing_lengths<3>(Simulation<3>&);
 template void summation_density<2>(Simulation<2>&);
 template void summation_density<3>(Simulation<3>&);
 template void pair_rates<2>(Simulation<2>&);

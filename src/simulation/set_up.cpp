@@ -4,6 +4,7 @@
 
 #include "base/errors.hpp"
 #include "base/parallel.hpp"
+#include "particles/smoothing_metric.hpp"
 #include "schemes/kernels.hpp"
 #include "schemes/pair_records.hpp"
 #include "simulation/seedlings.hpp"
@@ -90,6 +91,8 @@ void plant(Simulation<Dim>& sim, const std::vector<Seedling<Dim>>& seedlings) {
     p.column(Field::density)[i] = s.density;
     p.column(Field::specific_energy)[i] = initial_energy(body, material, s.density);
     p.column(Field::smoothing_length)[i] = scene.numerics.nodes_per_h * s.spacing;
+    if (p.has(Field::smoothing_metric))
+      p.set_symmetric(Field::smoothing_metric, i, round_metric<Dim>(scene.numerics.nodes_per_h * s.spacing));
     p.label(Label::id)[i] = static_cast<std::int32_t>(i);
     p.label(Label::body)[i] = s.body;
     p.label(Label::material)[i] = s.material;
@@ -129,6 +132,8 @@ std::unique_ptr<Simulation<Dim>> set_up(const Scene& scene, const std::vector<Ma
   settings.precision = numerics.precision;
   settings.stress = sim->particles.has(Field::deviatoric_stress);
   settings.velocity_gradient = sim->particles.has(Field::velocity_gradient);
+  settings.tensor = sim->particles.has(Field::smoothing_metric);
+  settings.coupled = sim->particles.has(Field::damage_tensor);
   settings.gradient_correction = numerics.gradient_correction;
   settings.viscosity_alpha = numerics.viscosity_alpha;
   settings.viscosity_beta = numerics.viscosity_beta;

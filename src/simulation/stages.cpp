@@ -16,7 +16,8 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
   const bool grady_kipp = any([](const Material& m) { return m.damage.has_value(); });
   const bool continuity = scene.numerics.density == DensityMethod::continuity;
   const bool balsara = scene.numerics.balsara;
-  const bool gradient = solid || continuity || balsara;
+  const bool tensor = scene.numerics.scheme == SchemeKind::asph;
+  const bool gradient = solid || continuity || balsara || tensor;
 
   std::vector<Stage<Dim>> stages;
   auto add = [&](std::string name, std::vector<Field> reads, std::vector<Field> writes, void (*run)(Simulation<Dim>&)) {
@@ -27,6 +28,9 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
     return fields;
   };
 
+  if (tensor)
+    add("carried smoothing", {velocity_gradient, smoothing_metric}, {smoothing_metric, smoothing_length},
+        carry_smoothing<Dim>);
   add("neighbours", {position, velocity, smoothing_length, mass}, {}, neighbours<Dim>);
   if (!continuity)
     add("density", {position, smoothing_length, mass}, {density, neighbour_sum, smoothing_length},

@@ -22,6 +22,14 @@ void strength(Simulation<Dim>& sim);
 template <int Dim>
 void damage(Simulation<Dim>& sim);
 
+// --- smoothing_stages.cpp --------------------------------------------------------------------------------------------
+/// Carries smoothing tensors along with the flow over the last step.
+template <int Dim>
+void carry_smoothing(Simulation<Dim>& sim);
+/// Smoothing lengths (the size of smoothing tensors) for the next step, from the number of neighbours.
+template <int Dim>
+void smoothing_lengths(Simulation<Dim>& sim);
+
 // --- pair_stages.cpp -------------------------------------------------------------------------------------------------
 /// Density by summation, with smoothing lengths that belong to it.
 template <int Dim>
@@ -35,9 +43,6 @@ void strain_rates(Simulation<Dim>& sim);
 /// Balsara's switch for the viscosity of the next step.
 template <int Dim>
 void shear_switch(Simulation<Dim>& sim);
-/// Smoothing lengths for the next step.
-template <int Dim>
-void smoothing_lengths(Simulation<Dim>& sim);
 
 // --- neighbour_stage.cpp ---------------------------------------------------------------------------------------------
 /// Renews the pair lists if somebody has left its margin, and the order of the particles if it has worn out.

@@ -8,6 +8,7 @@
 
 #include "base/errors.hpp"
 #include "base/parallel.hpp"
+#include "particles/smoothing_metric.hpp"
 
 namespace ejecta {
 
@@ -19,22 +20,31 @@ TimeStepVote vote_time_step(const Simulation<Dim>& sim) {
   const auto h = p.column(Field::smoothing_length), sound = p.column(Field::sound_speed),
              approach = p.column(Field::approach_speed);
   const bool compresses = p.has(Field::density_rate);
-  // One pass over the particles finds the smallest; the reason is worked out for that particle alone.
-  auto courant = [&](std::size_t i) {
-    const double viscous = numerics.viscosity_alpha * sound[i] + numerics.viscosity_beta * approach[i];
-    return h[i] / (sound[i] + 0.6 * viscous);
+  // What a signal crosses first: the shortest axis of a smoothing ellipsoid.
+  const bool tensor = p.has(Field::smoothing_metric);
+  auto crossing = [&](std::size_t i) {
+    return tensor ? axes_of<Dim>(p.symmetric(Field::smoothing_metric, i)).shortest : h[i];
   };
-  auto acceleration = [&](std::size_t i) { return std::sqrt(h[i] / p.vector(Field::acceleration, i).norm()); };
+  // One pass over the particles finds the smallest; the reason is worked out for that particle alone.
+  auto courant = [&](std::size_t i, double length) {
+    const double viscous = numerics.viscosity_alpha * sound[i] + numerics.viscosity_beta * approach[i];
+    return length / (sound[i] + 0.6 * viscous);
+  };
+  auto acceleration = [&](std::size_t i, double length) {
+    return std::sqrt(length / p.vector(Field::acceleration, i).norm());
+  };
   auto compression = [&](std::size_t i) {
     return compresses ? p.column(Field::density)[i] / std::abs(p.column(Field::density_rate)[i]) : never;
   };
   const IndexedMin least = parallel_min(p.size(), never, [&](std::size_t i) {
-    return std::min({courant(i), acceleration(i), compression(i)});
+    const double length = crossing(i);
+    return std::min({courant(i, length), acceleration(i, length), compression(i)});
   });
   if (least.index == p.size()) return {never, "end of run", p.size()};
-  const std::string_view reason = least.value == courant(least.index)        ? "Courant condition"
-                                  : least.value == acceleration(least.index) ? "acceleration"
-                                                                             : "compression";
+  const double length = crossing(least.index);
+  const std::string_view reason = least.value == courant(least.index, length)        ? "Courant condition"
+                                  : least.value == acceleration(least.index, length) ? "acceleration"
+                                                                                     : "compression";
   return {numerics.courant * least.value, reason, least.index};
 }
 

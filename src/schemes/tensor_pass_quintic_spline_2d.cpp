@@ -1,0 +1,5 @@
+#include "schemes/pair_pass_impl.hpp"
+
+namespace ejecta {
+template std::unique_ptr<PairPass<2>> make_tensor_pass_of<2, QuinticSpline>(const PairPassSettings&);
+}  // namespace ejecta

@@ -1,0 +1,73 @@
+#include <algorithm>
+
+#include "base/parallel.hpp"
+#include "particles/smoothing_metric.hpp"
+#include "simulation/stages.hpp"
+
+namespace ejecta {
+
+namespace {
+
+/// Bounds on h relative to that of the body's lattice: solids must not reach out for neighbours that have flown away; a
+/// gas may follow its expansion, and compression by 8000 in 3D.
+constexpr double least_relative_h = 0.25, gas_range = 20;
+
+struct Bounds {
+  double least, most;  ///< m
+};
+
+/// Bounds on the smoothing length of particle i of a material.
+template <int Dim>
+Bounds bounds_on_h(const Simulation<Dim>& sim, const Material& material, std::size_t i) {
+  const Numerics& numerics = sim.scene.numerics;
+  const Body& body = sim.scene.bodies[static_cast<std::size_t>(sim.particles.label(Label::body)[i])];
+  const double h0 = numerics.nodes_per_h * sim.scene.spacing * body.spacing_factor;
+  if (!material.solid()) return {h0 / gas_range, h0 * gas_range};
+  // A growth of 1 asks for a constant h.
+  return {numerics.smoothing_growth > 1 ? least_relative_h * h0 : h0, numerics.smoothing_growth * h0};
+}
+
+}  // namespace
+
+template <int Dim>
+void smoothing_lengths(Simulation<Dim>& sim) {
+  Particles<Dim>& p = sim.particles;
+  const bool tensor = p.has(Field::smoothing_metric);
+  for (std::size_t m = 0; m < sim.materials.size(); ++m) {
+    const Range range = p.material_ranges()[m];
+    parallel_for(range.begin, range.end, [&](std::size_t i) {
+      const Bounds bounds = bounds_on_h(sim, sim.materials[m], i);
+      double& h = p.column(Field::smoothing_length)[i];
+      const double before = h;
+      h = std::clamp(h * sim.support->growth(p.column(Field::neighbour_sum)[i]), bounds.least, bounds.most);
+      if (!tensor) return;
+      const double factor = (before / h) * (before / h);
+      for (int k = 0; k < symmetric_size<Dim>; ++k) p.column(Field::smoothing_metric, k)[i] *= factor;
+    });
+  }
+}
+
+template <int Dim>
+void carry_smoothing(Simulation<Dim>& sim) {
+  if (sim.clock.step == 0) return;
+  Particles<Dim>& p = sim.particles;
+  for (std::size_t m = 0; m < sim.materials.size(); ++m) {
+    const Range range = p.material_ranges()[m];
+    parallel_for(range.begin, range.end, [&](std::size_t i) {
+      const Mat<Dim> carried = limited_metric<Dim>(
+          carried_metric<Dim>(p.symmetric(Field::smoothing_metric, i), p.velocity_gradient(i), sim.clock.dt),
+          sim.scene.numerics.largest_aspect);
+      const Bounds bounds = bounds_on_h(sim, sim.materials[m], i);
+      const double free = smoothing_length_of<Dim>(carried), h = std::clamp(free, bounds.least, bounds.most);
+      p.column(Field::smoothing_length)[i] = h;
+      p.set_symmetric(Field::smoothing_metric, i, carried * ((free / h) * (free / h)));
+    });
+  }
+}
+
+template void smoothing_lengths<2>(Simulation<2>&);
+template void smoothing_lengths<3>(Simulation<3>&);
+template void carry_smoothing<2>(Simulation<2>&);
+template void carry_smoothing<3>(Simulation<3>&);
+
+}  // namespace ejecta
