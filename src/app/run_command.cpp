@@ -69,7 +69,7 @@ void prepare_folder(const Job& job) {
 template <int Dim>
 Summary summarise(const Simulation<Dim>& sim, const Frames<Dim>& frames, const fs::path& folder, int exit_code) {
   Summary s;
-  const ConservationErrors errors = conservation_errors(sim.initial, totals(sim.particles));
+  const ConservationErrors errors = conservation_errors(sim.initial, totals(sim.particles), sim.external);
   const double n = static_cast<double>(sim.particles.size()), steps = static_cast<double>(sim.clock.step);
   s.scene = sim.scene.name;
   s.dimension = Dim;

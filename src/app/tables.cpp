@@ -46,7 +46,9 @@ HistoryRow history_row(const Simulation<Dim>& sim, const std::optional<FragmentT
   row.limited_by = std::string(sim.vote.reason);
   row.kinetic_energy = now.kinetic;
   row.internal_energy = now.internal;
-  row.energy_error = conservation_errors(sim.initial, now).energy;
+  row.energy_error = conservation_errors(sim.initial, now, sim.external).energy;
+  if (std::any_of(sim.scene.bodies.begin(), sim.scene.bodies.end(), [](const Body& b) { return b.driven; }))
+    row.external_work = sim.external.work;
   row.momentum = {now.momentum[0], now.momentum[1], now.momentum[2]};
   row.mass = now.mass;
   constexpr double huge = std::numeric_limits<double>::max();
@@ -117,7 +119,7 @@ void Progress<Dim>::observe(Simulation<Dim>& sim, bool last) {
   spdlog::info("step {:6d}  t {:>10} of {}  dt {:>9} by {}{}  {:.2f} M particle-steps/s  dE/E {:+.1e}{}",
                sim.clock.step, format_quantity(sim.clock.time, "s"), format_quantity(sim.scene.time_end, "s"),
                format_quantity(sim.clock.dt, "s"), sim.vote.reason, culprit, rate,
-               conservation_errors(sim.initial, totals(sim.particles)).energy, eta);
+               conservation_errors(sim.initial, totals(sim.particles), sim.external).energy, eta);
   shown_ = now;
 }
 

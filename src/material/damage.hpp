@@ -1,17 +1,27 @@
 #pragma once
-/// Grady-Kipp fragmentation by Weibull-distributed flaws, scalar damage D (Benz & Asphaug 1994, Icarus 107, 98; 1995,
-/// Comput. Phys. Commun. 87, 253). The crack length, proportional to D^(1/3), is what is integrated in time.
+/// Grady-Kipp fragmentation by Weibull-distributed flaws: scalar damage D (tensor_damage.hpp: tensor) (Benz & Asphaug
+/// 1994, Icarus 107, 98; 1995, Comput. Phys. Commun. 87, 253). The crack length, proportional to D^(1/3), is what is
+/// integrated in time.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 
 namespace ejecta {
 
+/// The strain that opens the flaws of tensor damage: by the present stress (Benz & Asphaug 1995), or accumulated
+/// (tensor_damage.hpp).
+enum class CrackStrain { benz_asphaug, pseudo_plastic, strain_history };
+
 /// Flaws that open below strain eps: k eps^m per volume.
 struct GradyKipp {
   double weibull_m;
   double weibull_k;  ///< 1/m^3 (1/m^2 in plane strain); values up to 1e61 occur, only its logarithm is used
-  double crack_speed_factor = 0.4;  ///< speed of a growing crack / longitudinal wave speed
+  double crack_speed_factor = 0.4;                 ///< speed of a growing crack / longitudinal wave speed
+  bool tensor = false;                             ///< cracks have directions
+  CrackStrain strain = CrackStrain::benz_asphaug;  ///< of tensor damage
+
+  /// Whether the strain that opens flaws is accumulated in time.
+  bool remembers_strain() const { return tensor && strain != CrackStrain::benz_asphaug; }
 };
 
 /// A particle's flaws in three numbers: n_active(eps) = (eps/strain)^exponent between the weakest and the strongest

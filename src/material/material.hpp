@@ -25,6 +25,13 @@ struct Material {
   double bulk_density() const { return reference_density(eos) / (porosity ? porosity->initial_distension() : 1.0); }
   /// Whether it carries deviatoric stress.
   bool solid() const { return elastic.has_value(); }
+  bool tensor_damage() const { return damage && damage->tensor; }
+  /// Whether cracks cut the deviatoric stress between two particles, by direction. Not where broken matter has a
+  /// friction law: its deviator is bounded by the yield stress at the largest eigenvalue of damage, and no pair is cut.
+  bool cuts_pairs() const {
+    return tensor_damage() && strength &&
+           std::visit([](const auto& s) { return s.intact_fraction(1) != 1; }, *strength);
+  }
 };
 
 }  // namespace ejecta

@@ -19,7 +19,7 @@ struct Named {
 const std::array<Named<Eos>, 2> eos_models{{{"ideal_gas", IdealGas{}}, {"tillotson", Tillotson{}}}};
 const std::array<Named<Strength>, 4> strength_models{
     {{"von_mises", VonMises{}}, {"drucker_prager", DruckerPrager{}}, {"lundborg", Lundborg{}}, {"collins", Collins{}}}};
-const std::vector<std::string> damage_models{"none", "grady_kipp"};
+const std::vector<std::string> damage_models{"none", "grady_kipp", "grady_kipp_tensor"};
 const std::vector<std::string> porosity_models{"none", "quadratic", "two_power"};
 
 template <std::size_t N, class Model>
@@ -79,11 +79,15 @@ void describe(Describer& d, Collins& m) {
   constant(d, "damaged_friction", m.damaged_friction, "1", non_negative, "coefficient of friction of broken rock");
 }
 
-void describe(Describer& d, GradyKipp& m) {
+void describe(Describer& d, GradyKipp& m, bool tensor) {
   constant(d, "weibull_m", m.weibull_m, "1", positive, "exponent of the flaw distribution k eps^m");
   constant(d, "weibull_k", m.weibull_k, "1/m^3", positive, "flaws per volume with strain below 1; per area in 2D");
   d.number("crack_speed_factor", m.crack_speed_factor, "1", {.min = 0, .max = 1, .open_min = true},
            "speed of a crack / longitudinal wave speed");
+  if (tensor)
+    d.choice(
+        "strain", m.strain,
+        "that opens flaws: of the present stress, or accumulated: deviatoric strain without yield, all stretching");
 }
 
 void describe(Describer& d, PorositySettings& p, bool two_power) {
@@ -150,7 +154,7 @@ void describe(Describer& d, MaterialSettings& s) {
   }
   d.section("damage", fmt::format("brittle fracture: {}", s.damage_model));
   model(s.damage_model, damage_models, "none: never breaks");
-  if (s.damage_model != "none") describe(d, s.damage);
+  if (s.damage_model != "none") describe(d, s.damage, s.damage_model == "grady_kipp_tensor");
   d.section("porosity", fmt::format("pores below the resolution (P-alpha): {}", s.porosity_model));
   model(s.porosity_model, porosity_models, "form of the crush curve; none: no pores");
   if (s.porosity_model != "none") describe(d, s.porosity, s.porosity_model == "two_power");
@@ -167,6 +171,10 @@ void check_settings(const MaterialSettings& s, const Document& document, Problem
   if (gas && s.porosity_model != "none") report("porosity.model", "an ideal gas has no pores");
   if (!s.has_elastic && s.strength_model != "none") report("strength.model", "needs section [elastic]");
   if (!s.has_elastic && s.damage_model != "none") report("damage.model", "needs section [elastic]");
+  if (s.damage_model == "grady_kipp_tensor" && s.strength_model == "none")
+    report("damage.model",
+           "grady_kipp_tensor needs section [strength]: cracks with a direction cut off a deviatoric "
+           "stress, and nothing would bound the one that is left");
   const auto check_limit = [&](const Lundborg& m) {
     if (m.limit != 0 && m.limit <= m.cohesion)
       report("strength.limit", fmt::format("expected more than the cohesion ({})", format_quantity(m.cohesion, "Pa")));
@@ -193,7 +201,10 @@ Material make_material(const std::string& name, const MaterialSettings& s) {
   if (s.has_elastic) material.elastic = s.elastic;
   if (s.strength_model != "none") material.strength = s.strength;
   if (is_set(s.melt_energy)) material.melt_energy = s.melt_energy;
-  if (s.damage_model != "none") material.damage = s.damage;
+  if (s.damage_model != "none") {
+    material.damage = s.damage;
+    material.damage->tensor = s.damage_model == "grady_kipp_tensor";
+  }
   if (s.porosity_model == "none") return material;
   const PorositySettings& p = s.porosity;
   const CrushCurve curve =
@@ -214,7 +225,7 @@ std::vector<MaterialSettings> every_model() {
     s.has_elastic = true;
     s.strength_model = strength_models[k].name;
     s.strength = strength_models[k].initial;
-    s.damage_model = "grady_kipp";
+    s.damage_model = damage_models[1 + k % 2];
     s.porosity_model = porosity_models[1 + k % 2];
     all.push_back(s);
   }

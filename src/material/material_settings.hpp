@@ -1,12 +1,19 @@
 #pragma once
 /// What a material file says, before a Material is made of it: each part has a model, and the model has its constants.
+#include <array>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "material/material.hpp"
 #include "scene/settings_io.hpp"
 
 namespace ejecta {
+
+/// The words for the strain that opens flaws.
+constexpr auto enum_names(CrackStrain) {
+  return std::to_array<std::string_view>({"benz_asphaug", "pseudo_plastic", "strain_history"});
+}
 
 struct PorositySettings {
   double initial_distension = unset;     ///< alpha0 = grain density / bulk density

@@ -16,7 +16,7 @@ struct Table {
     cells.emplace_back(std::move(value));
   }
   template <class T>
-  void add_if(const char* name, const char* unit, const std::optional<T>& value) {
+  void add_if(const char* name, const std::string& unit, const std::optional<T>& value) {
     if (value) add(name, unit, *value);
   }
 };
@@ -32,6 +32,7 @@ Table table_of(const HistoryRow& r, int dimension) {
   t.add("kinetic energy", "J" + per, r.kinetic_energy);
   t.add("internal energy", "J" + per, r.internal_energy);
   t.add("total energy", "J" + per, r.kinetic_energy + r.internal_energy);
+  t.add_if("external work", "J" + per, r.external_work);
   t.add("energy error", "1", r.energy_error);
   const std::string momentum = dimension == 2 ? "kg/s" : "kg m/s";
   t.add("momentum x", momentum, r.momentum[0]);

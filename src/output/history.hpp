@@ -19,7 +19,8 @@ struct HistoryRow {
   double dt = 0;                                         ///< s
   std::string limited_by;                                ///< winning vote of the time step
   double kinetic_energy = 0, internal_energy = 0;        ///< J (J/m in plane strain)
-  double energy_error = 0;                               ///< (total - initial total) / initial total, 1
+  std::optional<double> external_work;                   ///< J (J/m in plane strain), on driven bodies
+  double energy_error = 0;                               ///< (total - initial total - external work) / initial total, 1
   std::array<double, 3> momentum{0, 0, 0};               ///< kg m/s
   double mass = 0;                                       ///< kg
   double max_pressure = 0;                               ///< Pa

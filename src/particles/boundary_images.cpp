@@ -42,14 +42,21 @@ void make_images(const Particles<Dim>& particles, const Boundary& boundary, doub
 
 namespace {
 
-/// Components of a vector or deviator that change sign in a mirror across an axis: its own, and the shears that hold
-/// it.
+/// Components that change sign in a mirror across an axis: of a vector its own, of a tensor those that hold it once.
 template <int Dim>
 std::vector<int> odd_components(Shape shape, int axis) {
   if (shape == Shape::vector) return {axis};
-  constexpr std::array<std::array<int, 2>, 3> shears{{{2, 3}, {2, 4}, {3, 4}}};  // order: base/types.hpp
+  std::vector<int> odd;
+  if (shape == Shape::tensor) {
+    for (int other = 0; other < Dim; ++other)
+      if (other != axis) odd.insert(odd.end(), {axis * Dim + other, other * Dim + axis});
+    return odd;
+  }
   if (Dim == 2) return {2};
-  return {shears[static_cast<std::size_t>(axis)].begin(), shears[static_cast<std::size_t>(axis)].end()};
+  const int xy = shape == Shape::deviator ? 2 : 3;  // then xz and yz: base/types.hpp
+  for (int pair = 0; pair < 3; ++pair)
+    if (pair != 2 - axis) odd.push_back(xy + pair);
+  return odd;
 }
 
 /// Puts particle i in the place and state of its mirror image at a face. That is the same state of the same system, so
@@ -58,7 +65,10 @@ template <int Dim>
 void mirror(Particles<Dim>& particles, std::size_t i, int axis, double face) {
   double& x = particles.column(Field::position, axis)[i];
   x = 2 * face - x;
-  for (Field f : {Field::velocity, Field::acceleration, Field::deviatoric_stress, Field::stress_rate}) {
+  // The gradients strain and turn cracks in the coming stages.
+  for (Field f :
+       {Field::velocity, Field::acceleration, Field::deviatoric_stress, Field::stress_rate, Field::damage_tensor,
+        Field::strain_history, Field::smoothing_metric, Field::velocity_gradient, Field::coupled_gradient}) {
     if (!particles.has(f)) continue;
     for (int k : odd_components<Dim>(info(f).shape, axis)) {
       particles.column(f, k)[i] *= -1;

@@ -36,6 +36,8 @@ const std::array<FieldInfo, field_count>& field_catalogue() {
       {Field::crack_rate, "crack_rate", scalar, "1/s", rate, "growth of the cube root of the tensile damage"},
       {Field::damage_tensor, "damage_tensor", symmetric, "1", state,
        "damage across each direction n: n.D n, eigenvalues 0 to 1"},
+      {Field::damage_tensor_growth, "damage_tensor_growth", scalar, "1/s", derived,
+       "fastest growth of the cube root of damage in any direction"},
       {Field::strain_history, "strain_history", symmetric, "1", state, "strain accumulated in the body's own frame"},
       {Field::flaw_strain, "flaw_strain", scalar, "1", constant, "activation strain of the weakest flaw"},
       {Field::flaw_exponent, "flaw_exponent", scalar, "1", constant,

@@ -33,6 +33,7 @@ enum class Field {
   crack,
   crack_rate,
   damage_tensor,
+  damage_tensor_growth,
   strain_history,
   flaw_strain,
   flaw_exponent,

@@ -47,6 +47,12 @@ class Particles {
     for (int a = 0; a < Dim; ++a) column(f, a)[i] = v[a];
   }
 
+  Mat<Dim> tensor(Field f, std::size_t i) const {
+    Mat<Dim> m;
+    for (int a = 0; a < Dim; ++a)
+      for (int b = 0; b < Dim; ++b) m(a, b) = column(f, a * Dim + b)[i];
+    return m;
+  }
   Mat<Dim> symmetric(Field f, std::size_t i) const {
     Symmetric<Dim> s;
     for (int k = 0; k < symmetric_size<Dim>; ++k) s[k] = column(f, k)[i];
@@ -55,14 +61,6 @@ class Particles {
   void set_symmetric(Field f, std::size_t i, const Mat<Dim>& m) {
     const Symmetric<Dim> s = symmetric_of<Dim>(m);
     for (int k = 0; k < symmetric_size<Dim>; ++k) column(f, k)[i] = s[k];
-  }
-
-  /// dv_a/dx_b [1/s], or what another field of that shape holds.
-  Mat<Dim> velocity_gradient(std::size_t i, Field f = Field::velocity_gradient) const {
-    Mat<Dim> L;
-    for (int a = 0; a < Dim; ++a)
-      for (int b = 0; b < Dim; ++b) L(a, b) = column(f, a * Dim + b)[i];
-    return L;
   }
 
   /// Particles of one material are contiguous: the range of each, by material number.

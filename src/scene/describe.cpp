@@ -20,6 +20,7 @@ void describe(Describer& d, Body& b) {
   d.number("pressure", b.pressure, "Pa", non_negative, "of a gas at the start; sets its specific energy");
   d.number("specific_energy", b.specific_energy, "J/kg", any_number, "at the start, where no pressure is given");
   d.number("spacing_factor", b.spacing_factor, "1", positive, "particle spacing relative to resolution.spacing");
+  d.flag("driven", b.driven, "keeps its velocity whatever pulls at it, and never breaks: a grip or a piston");
   d.number("jitter", b.jitter, "1", between(0, 1), "random displacement along each axis, up to this many spacings");
 }
 

@@ -51,6 +51,7 @@ struct Body {
   double specific_energy = 0;        ///< J/kg; used where pressure is not given
   double spacing_factor = 1;         ///< particle spacing relative to resolution.spacing
   std::string origin;                ///< where the scene says so: "inputs/x.toml:14"
+  bool driven = false;               ///< keeps its velocity whatever pulls at it, and never breaks
   double jitter = 0;                 ///< random displacement along each axis, up to this many spacings
   Profile profile;
 };

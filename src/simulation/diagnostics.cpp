@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
+#include "simulation/particle_state.hpp"
 
 namespace ejecta {
 
@@ -36,14 +37,43 @@ Totals totals(const Particles<Dim>& particles) {
   });
 }
 
-ConservationErrors conservation_errors(const Totals& initial, const Totals& now) {
+ExternalLoad& ExternalLoad::operator+=(const ExternalLoad& o) {
+  force += o.force;
+  power += o.power;
+  impulse += o.impulse;
+  work += o.work;
+  return *this;
+}
+
+template <int Dim>
+ExternalLoad holding_load(const Particles<Dim>& particles, const Scene& scene) {
+  return parallel_sum<ExternalLoad>(particles.size(), [&](std::size_t i) {
+    ExternalLoad load;
+    if (!driven(particles, scene, i)) return load;
+    const Vec<Dim> force = -particles.column(Field::mass)[i] * particles.vector(Field::acceleration, i);
+    load.force.template head<Dim>() = force;
+    load.power = force.dot(particles.vector(Field::velocity, i));
+    return load;
+  });
+}
+
+void add_step(ExternalLoad& total, const ExternalLoad& before, const ExternalLoad& after, double dt) {
+  total.impulse += 0.5 * dt * (before.force + after.force);
+  total.work += 0.5 * dt * (before.power + after.power);
+}
+
+ConservationErrors conservation_errors(const Totals& initial, const Totals& now, const ExternalLoad& external) {
   auto relative = [](double difference, double scale) { return scale > 0 ? difference / scale : difference; };
   return {relative(std::abs(now.mass - initial.mass), initial.mass),
-          relative((now.momentum - initial.momentum).norm(), std::max(initial.momentum_scale, now.momentum_scale)),
-          relative(now.energy() - initial.energy(), std::max(std::abs(initial.energy()), initial.kinetic))};
+          relative((now.momentum - initial.momentum - external.impulse).norm(),
+                   std::max(initial.momentum_scale, now.momentum_scale)),
+          relative(now.energy() - initial.energy() - external.work,
+                   std::max({std::abs(initial.energy()), initial.kinetic, std::abs(external.work)}))};
 }
 
 template Totals totals<2>(const Particles<2>&);
 template Totals totals<3>(const Particles<3>&);
+template ExternalLoad holding_load<2>(const Particles<2>&, const Scene&);
+template ExternalLoad holding_load<3>(const Particles<3>&, const Scene&);
 
 }  // namespace ejecta

@@ -3,6 +3,7 @@
 #include "base/types.hpp"
 #include "material/material.hpp"
 #include "particles/particles.hpp"
+#include "scene/scene.hpp"
 
 namespace ejecta {
 
@@ -20,11 +21,29 @@ struct Totals {
 template <int Dim>
 Totals totals(const Particles<Dim>& particles);
 
-/// Relative errors of what must not change.
+/// What acts on driven bodies from outside, and what it has done so far.
+struct ExternalLoad {
+  Vec<3> force = Vec<3>::Zero();    ///< at present [N] (N/m in plane strain)
+  double power = 0;                 ///< of that force [W]
+  Vec<3> impulse = Vec<3>::Zero();  ///< since the start [kg m/s]
+  double work = 0;                  ///< since the start [J]
+  ExternalLoad& operator+=(const ExternalLoad& o);
+};
+
+/// Force and power that take away the acceleration the pair pass has given to the particles of driven bodies.
+template <int Dim>
+ExternalLoad holding_load(const Particles<Dim>& particles, const Scene& scene);
+
+/// Impulse and work of a step dt [s] with the mean of the loads at its ends. The heating of the pair pass goes with the
+/// forces at both ends in just these shares (integrator.hpp) and a driven particle keeps its velocity v, so that energy
+/// changes by exactly -m a.v dt/2 for each: total energy less work is constant to round-off.
+void add_step(ExternalLoad& total, const ExternalLoad& before, const ExternalLoad& after, double dt);
+
+/// Relative errors of what must not change but by external loads.
 struct ConservationErrors {
   double mass, momentum, energy;
 };
-/// Energy is measured against the largest of total energy and kinetic energy at the start.
-ConservationErrors conservation_errors(const Totals& initial, const Totals& now);
+/// Energy is measured against the largest of total energy and kinetic energy at the start, and external work.
+ConservationErrors conservation_errors(const Totals& initial, const Totals& now, const ExternalLoad& external = {});
 
 }  // namespace ejecta

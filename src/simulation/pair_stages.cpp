@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
+#include "simulation/particle_state.hpp"
 #include "simulation/stages.hpp"
 
 namespace ejecta {
@@ -42,7 +43,7 @@ void strain_rates(Simulation<Dim>& sim) {
     const Material& material = sim.materials[m];
     const Range range = p.material_ranges()[m];
     parallel_for(range.begin, range.end, [&](std::size_t i) {
-      const Mat<Dim> L = p.velocity_gradient(i);
+      const Mat<Dim> L = p.tensor(Field::velocity_gradient, i);
       const double compression = -L.trace();  // (1/rho) drho/dt
       if (continuity) p.column(Field::density_rate)[i] = p.column(Field::density)[i] * compression;
       if (!material.solid()) return;
@@ -54,9 +55,8 @@ void strain_rates(Simulation<Dim>& sim) {
         shear *= f / p.column(Field::distension)[i];
         distension_rate = std::min(0.0, (f - 1) * compression);  // (1/alpha) d(alpha)/dt
       }
-      Deviator<Dim> s;
-      for (int k = 0; k < deviator_size<Dim>; ++k) s[k] = p.column(Field::deviatoric_stress, k)[i];
-      const Deviator<Dim> rate = stress_rate<Dim>(L, s, shear) - distension_rate * s;
+      const Deviator<Dim> s = deviator<Dim>(p, i);
+      const Deviator<Dim> rate = stress_rate<Dim>(straining_gradient(p, material, i), s, shear) - distension_rate * s;
       for (int k = 0; k < deviator_size<Dim>; ++k) p.column(Field::stress_rate, k)[i] = rate[k];
     });
   }
@@ -67,7 +67,7 @@ void shear_switch(Simulation<Dim>& sim) {
   // Balsara (1995): |div v| / (|div v| + |curl v| + 1e-4 c/h)
   Particles<Dim>& p = sim.particles;
   parallel_for(0, p.size(), [&](std::size_t i) {
-    const Mat<Dim> L = p.velocity_gradient(i);
+    const Mat<Dim> L = p.tensor(Field::velocity_gradient, i);
     const double divergence = std::abs(L.trace());
     const double floor = 1e-4 * p.column(Field::sound_speed)[i] / p.column(Field::smoothing_length)[i];
     p.column(Field::shear_switch)[i] = divergence / (divergence + curl<Dim>(L) + floor);

@@ -39,12 +39,14 @@ void step(Simulation<Dim>& sim, double dt_limit) {
   clock.dt = dt;
   clock.time += dt;
   ++clock.step;
+  const ExternalLoad before = sim.external;
   evaluate(sim);
   sim.timers.time("integration", [&] { correct(sim.particles, dt); });
+  add_step(sim.external, before, sim.external, dt);
   sim.timers.time("health", [&] {
     check_health(sim, "correction");
     if (clock.step % steps_between_energy_checks != 0) return;
-    const double drift = conservation_errors(sim.initial, totals(sim.particles)).energy;
+    const double drift = conservation_errors(sim.initial, totals(sim.particles), sim.external).energy;
     if (!(std::abs(drift) <= sim.scene.numerics.max_energy_drift))  // so that no number at all is caught too
       throw SimulationError(
           fmt::format("time {:.6g} s, step {}: total energy has drifted by {:.3g} of its value "

@@ -69,7 +69,8 @@ struct Simulation {
   std::int64_t unconverged = 0;  ///< particle-steps in which the distension solver failed (plain Newton may)
   Clock clock;
   TimeStepVote vote{0, "start", 0};
-  Totals initial;  ///< conserved quantities at the start
+  Totals initial;         ///< conserved quantities at the start
+  ExternalLoad external;  ///< on driven bodies
   StageTimers timers;
   double wall_seconds = 0;  ///< spent in steps so far
 };

@@ -54,9 +54,10 @@ void carry_smoothing(Simulation<Dim>& sim) {
   for (std::size_t m = 0; m < sim.materials.size(); ++m) {
     const Range range = p.material_ranges()[m];
     parallel_for(range.begin, range.end, [&](std::size_t i) {
-      const Mat<Dim> carried = limited_metric<Dim>(
-          carried_metric<Dim>(p.symmetric(Field::smoothing_metric, i), p.velocity_gradient(i), sim.clock.dt),
-          sim.scene.numerics.largest_aspect);
+      const Mat<Dim> carried =
+          limited_metric<Dim>(carried_metric<Dim>(p.symmetric(Field::smoothing_metric, i),
+                                                  p.tensor(Field::velocity_gradient, i), sim.clock.dt),
+                              sim.scene.numerics.largest_aspect);
       const Bounds bounds = bounds_on_h(sim, sim.materials[m], i);
       const double free = smoothing_length_of<Dim>(carried), h = std::clamp(free, bounds.least, bounds.most);
       p.column(Field::smoothing_length)[i] = h;

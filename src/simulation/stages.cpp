@@ -14,6 +14,10 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
   const bool breaks = any(
       [](const Material& m) { return m.damage.has_value() || (m.porosity && m.porosity->crush_damage && m.solid()); });
   const bool grady_kipp = any([](const Material& m) { return m.damage.has_value(); });
+  const bool scalar_cracks = any([](const Material& m) { return m.damage && !m.tensor_damage(); });
+  const bool tensor_cracks = any([](const Material& m) { return m.tensor_damage(); });
+  const bool remembers = any([](const Material& m) { return m.damage && m.damage->remembers_strain(); });
+  const bool driven = std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) { return b.driven; });
   const bool continuity = scene.numerics.density == DensityMethod::continuity;
   const bool balsara = scene.numerics.balsara;
   const bool tensor = scene.numerics.scheme == SchemeKind::asph;
@@ -44,13 +48,20 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
     add("strength", extended({deviatoric_stress, pressure, specific_energy}, breaks, {Field::damage}),
         {deviatoric_stress, plastic_strain}, strength<Dim>);
   if (breaks)
-    add("damage", extended({pressure, deviatoric_stress}, grady_kipp, {crack, flaw_strain, flaw_exponent, flaw_count}),
-        extended({Field::damage, pressure}, grady_kipp, {crack_rate}), ejecta::damage<Dim>);
+    add("damage",
+        extended(extended(extended({pressure, deviatoric_stress}, grady_kipp, {flaw_strain, flaw_exponent, flaw_count}),
+                          scalar_cracks, {crack}),
+                 tensor_cracks, {damage_tensor, velocity_gradient, smoothing_length}),
+        extended(extended(extended({Field::damage, pressure}, scalar_cracks, {crack_rate}), tensor_cracks,
+                          {damage_tensor, damage_tensor_growth}),
+                 remembers, {strain_history}),
+        ejecta::damage<Dim>);
   add("pair rates",
       extended(extended({position, velocity, smoothing_length, mass, density, pressure, sound_speed}, solid,
                         {deviatoric_stress}),
                balsara, {Field::shear_switch}),
       extended({acceleration, heating, neighbour_sum, approach_speed}, gradient, {velocity_gradient}), pair_rates<Dim>);
+  if (driven) add("driven bodies", {acceleration, velocity, mass}, {acceleration}, driven_bodies<Dim>);
   if (continuity || solid)
     add("strain rates", extended({velocity_gradient, density}, solid, {deviatoric_stress}),
         extended(extended({}, continuity, {density_rate}), solid, {stress_rate}), strain_rates<Dim>);

@@ -18,7 +18,11 @@ void equation_of_state(Simulation<Dim>& sim);
 /// Brings the stress deviator back to the yield surface.
 template <int Dim>
 void strength(Simulation<Dim>& sim);
-/// Growth of cracks from the local strain, total damage, and what it leaves of tension.
+
+// --- damage_stage.cpp ------------------------------------------------------------------------------------------------
+/// Growth of cracks from the local strain, total damage, and what it leaves of tension. Tensor damage and the strain it
+/// remembers are brought to the end of the step with the velocity gradient of the pair pass before. Driven bodies stay
+/// whole.
 template <int Dim>
 void damage(Simulation<Dim>& sim);
 
@@ -29,6 +33,11 @@ void carry_smoothing(Simulation<Dim>& sim);
 /// Smoothing lengths (the size of smoothing tensors) for the next step, from the number of neighbours.
 template <int Dim>
 void smoothing_lengths(Simulation<Dim>& sim);
+
+// --- driven_stage.cpp ------------------------------------------------------------------------------------------------
+/// Takes the acceleration of driven bodies away; the force that does so, and its power, are noted in sim.external.
+template <int Dim>
+void driven_bodies(Simulation<Dim>& sim);
 
 // --- pair_stages.cpp -------------------------------------------------------------------------------------------------
 /// Density by summation, with smoothing lengths that belong to it.

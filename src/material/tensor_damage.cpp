@@ -1,0 +1,91 @@
+#include "material/tensor_damage.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
+namespace ejecta {
+
+template <int Dim>
+Mat<Dim> rotation(const Mat<Dim>& gradient, double dt) {
+  if constexpr (Dim == 2) {
+    return Eigen::Rotation2Dd(0.5 * dt * (gradient(1, 0) - gradient(0, 1))).toRotationMatrix();
+  } else {
+    const Vec<3> turn =
+        0.5 * dt *
+        Vec<3>(gradient(2, 1) - gradient(1, 2), gradient(0, 2) - gradient(2, 0), gradient(1, 0) - gradient(0, 1));
+    const double angle = turn.norm();
+    if (angle == 0) return Mat<3>::Identity();
+    return Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix();
+  }
+}
+
+template <int Dim>
+Mat<Dim> stress_strain(double pressure, const Deviator<Dim>& s, double young, double distension) {
+  const Mat<Dim> stress =
+      full_tensor<Dim>(s).template topLeftCorner<Dim, Dim>() - pressure * Mat<Dim>(Mat<Dim>::Identity());
+  return distension / young * stress;
+}
+
+template <int Dim>
+Mat<Dim> straining(CrackStrain choice, const Mat<Dim>& gradient) {
+  const Mat<Dim> rate = 0.5 * (gradient + gradient.transpose());
+  switch (choice) {
+    case CrackStrain::benz_asphaug:
+      break;
+    case CrackStrain::pseudo_plastic:  // in plane strain too a third of the trace: the zz part is not stored
+      return rate - rate.trace() / 3 * Mat<Dim>(Mat<Dim>::Identity());
+    case CrackStrain::strain_history: {
+      const Eigen::SelfAdjointEigenSolver<Mat<Dim>> eigen(rate);
+      return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() * eigen.eigenvectors().transpose();
+    }
+  }
+  return Mat<Dim>::Zero();
+}
+
+template <int Dim>
+double damage_length(const Mat<Dim>& metric, const Vec<Dim>& normal) {
+  const double section = metric.determinant() * normal.dot(metric.inverse() * normal);
+  return Dim == 2 ? 1 / std::sqrt(section) : 1 / std::sqrt(std::sqrt(section));
+}
+
+template <int Dim>
+double grow_cracks(Mat<Dim>& damage, const Mat<Dim>& strain, const CrackGrowth<Dim>& growth, double dt) {
+  // No eigenvalue is larger than the Frobenius norm: this spares most particles the solution.
+  if (!(strain.norm() >= growth.flaws.strain)) return 0;
+  const Eigen::SelfAdjointEigenSolver<Mat<Dim>> eigen(strain);
+  double fastest = 0;
+  for (int k = Dim - 1; k >= 0; --k) {
+    const Vec<Dim> n = eigen.eigenvectors().col(k);
+    const double active = active_flaws(eigen.eigenvalues()[k], growth.flaws);
+    const double limit = crack_limit(active, growth.flaws);
+    const Vec<Dim> intact_across = n - damage * n;
+    const double intact = n.dot(intact_across), crack = std::cbrt(std::clamp(1 - intact, 0.0, 1.0));
+    if (!(crack < limit && intact > 0)) continue;
+    const double rate = crack_growth_rate(active, growth.crack_speed, damage_length(growth.metric, n));
+    fastest = std::max(fastest, rate);
+    const double longer = std::min(crack + dt * rate, limit);
+    const double lost = std::min((longer * longer * longer - (1 - intact)) / intact, 1.0);
+    if (lost > 0) damage += lost / intact * intact_across * intact_across.transpose();
+  }
+  return fastest;
+}
+
+template <int Dim>
+double largest_eigenvalue(const Mat<Dim>& tensor) {
+  return Eigen::SelfAdjointEigenSolver<Mat<Dim>>(tensor, Eigen::EigenvaluesOnly).eigenvalues()[Dim - 1];
+}
+
+template Mat<2> rotation<2>(const Mat<2>&, double);
+template Mat<3> rotation<3>(const Mat<3>&, double);
+template Mat<2> stress_strain<2>(double, const Deviator<2>&, double, double);
+template Mat<3> stress_strain<3>(double, const Deviator<3>&, double, double);
+template Mat<2> straining<2>(CrackStrain, const Mat<2>&);
+template Mat<3> straining<3>(CrackStrain, const Mat<3>&);
+template double damage_length<2>(const Mat<2>&, const Vec<2>&);
+template double damage_length<3>(const Mat<3>&, const Vec<3>&);
+template double grow_cracks<2>(Mat<2>&, const Mat<2>&, const CrackGrowth<2>&, double);
+template double grow_cracks<3>(Mat<3>&, const Mat<3>&, const CrackGrowth<3>&, double);
+template double largest_eigenvalue<2>(const Mat<2>&);
+template double largest_eigenvalue<3>(const Mat<3>&);
+
+}  // namespace ejecta
