@@ -50,22 +50,29 @@ double damage_length(const Mat<Dim>& metric, const Vec<Dim>& normal) {
 
 template <int Dim>
 double grow_cracks(Mat<Dim>& damage, const Mat<Dim>& strain, const CrackGrowth<Dim>& growth, double dt) {
+  using Eigensystem = Eigen::SelfAdjointEigenSolver<Mat<Dim>>;
   // No eigenvalue is larger than the Frobenius norm: this spares most particles the solution.
   if (!(strain.norm() >= growth.flaws.strain)) return 0;
-  const Eigen::SelfAdjointEigenSolver<Mat<Dim>> eigen(strain);
+  const Eigensystem strained(strain);
   double fastest = 0;
   for (int k = Dim - 1; k >= 0; --k) {
-    const Vec<Dim> n = eigen.eigenvectors().col(k);
-    const double active = active_flaws(eigen.eigenvalues()[k], growth.flaws);
-    const double limit = crack_limit(active, growth.flaws);
-    const Vec<Dim> intact_across = n - damage * n;
-    const double intact = n.dot(intact_across), crack = std::cbrt(std::clamp(1 - intact, 0.0, 1.0));
+    const double active = active_flaws(strained.eigenvalues()[k], growth.flaws);
+    if (active == 0) continue;
+    // In the axes of D: n.D n and n.A n are then sums of what is positive, and their round-off cannot heal or exceed.
+    const Eigensystem axes(damage);
+    const Vec<Dim> d = axes.eigenvalues().cwiseMax(0).cwiseMin(1), a = Vec<Dim>::Ones() - d;
+    const Vec<Dim> n = strained.eigenvectors().col(k), y = axes.eigenvectors().transpose() * n;
+    const double broken = d.dot(y.cwiseAbs2()), intact = a.dot(y.cwiseAbs2());
+    const double crack = std::cbrt(broken), limit = crack_limit(active, growth.flaws);
     if (!(crack < limit && intact > 0)) continue;
-    const double rate = crack_growth_rate(active, growth.crack_speed, damage_length(growth.metric, n));
+    const double rate = crack_growth_rate(active, growth.crack_speed, damage_length<Dim>(growth.metric, n));
     fastest = std::max(fastest, rate);
     const double longer = std::min(crack + dt * rate, limit);
-    const double lost = std::min((longer * longer * longer - (1 - intact)) / intact, 1.0);
-    if (lost > 0) damage += lost / intact * intact_across * intact_across.transpose();
+    if (!(longer > crack)) continue;
+    const double lost = std::min((longer * longer * longer - broken) / intact, 1.0);
+    const Vec<Dim> left = a.cwiseProduct(y);  // A n
+    const Mat<Dim> grown = Mat<Dim>(d.asDiagonal()) + lost / intact * left * left.transpose();
+    damage = turned<Dim>(grown, axes.eigenvectors());
   }
   return fastest;
 }

@@ -150,7 +150,21 @@ TEST(ReadMaterial, RefusesWithReason) {
   EXPECT_EQ(problems_of_text(tillotson + "[strength]\nmodel = \"von_mises\"\nyield_stress = \"1 GPa\"\n"),
             One{"m.toml:14: strength.model: needs section [elastic]"});
   EXPECT_EQ(problems_of_text(tillotson + "[damage]\nweibull_m = 9\n"),
-            One{"m.toml:13: damage.model: expected one of none, grady_kipp, got nothing"});
+            One{"m.toml:13: damage.model: expected one of none, grady_kipp, grady_kipp_tensor, got nothing"});
+  const std::string tensor = "[damage]\nmodel = \"grady_kipp_tensor\"\nweibull_m = 9\nweibull_k = \"5e34 1/m^3\"\n";
+  EXPECT_EQ(problems_of_text(tillotson + tensor), One{"m.toml:14: damage.model: needs section [elastic]"});
+  EXPECT_EQ(
+      problems_of_text(tillotson + elastic + tensor),
+      One{"m.toml:17: damage.model: grady_kipp_tensor needs section [strength]: cracks with a direction cut off a "
+          "deviatoric stress, and nothing would bound the one that is left"});
+  const std::string strong = tillotson + elastic + "[strength]\nmodel = \"von_mises\"\nyield_stress = \"1 GPa\"\n";
+  EXPECT_EQ(problems_of_text(strong + tensor + "strain = \"benz_asphaug\"\n"), One{});
+  EXPECT_EQ(problems_of_text(strong + tensor + "strain = \"plastic\"\n"),
+            One{"m.toml:23: damage.strain: expected one of benz_asphaug, pseudo_plastic, strain_history, got "
+                "\"plastic\""});
+  EXPECT_EQ(problems_of_text(strong + "[damage]\nmodel = \"grady_kipp\"\nweibull_m = 9\nweibull_k = \"5e34 1/m^3\"\n"
+                                      "strain = \"pseudo_plastic\"\n"),
+            One{"m.toml:23: damage.strain: unknown key"});
   EXPECT_EQ(problems_of_text(tillotson + elastic +
                              "[strength]\nmodel = \"lundborg\"\ncohesion = \"2 GPa\"\nfriction = 1\n"
                              "limit = \"1 GPa\"\n"),
@@ -238,7 +252,7 @@ TEST(Reference, NamesEveryConstantAndEveryModel) {
        {"gamma", "E_iv", "yield_stress", "friction_angle", "damaged_cohesion", "limit", "melt_energy", "weibull_k",
         "crack_speed_factor", "transition_pressure", "n2", "crush_damage", "shear_modulus", "spacing", "frames"})
     EXPECT_NE(text.find("\n  " + key + " "), std::string::npos) << key;
-  for (const std::string model : {"collins", "two_power", "quadratic", "ideal_gas", "grady_kipp"})
+  for (const std::string model : {"collins", "two_power", "quadratic", "ideal_gas", "grady_kipp", "grady_kipp_tensor"})
     EXPECT_NE(text.find(": " + model), std::string::npos) << model;
 }
 

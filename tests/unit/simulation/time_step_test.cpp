@@ -45,6 +45,15 @@ TEST(TimeStep, IsShortenedByCompression) {
   EXPECT_NEAR(vote.dt, sim->scene.numerics.courant * 1e-9, 1e-22);
 }
 
+TEST(TimeStep, IsShortenedByGrowingCracks) {
+  const auto sim = start<3>(porous_impact);
+  sim->particles.column(Field::crack_rate)[33] = 4e9;
+  const TimeStepVote vote = vote_time_step(*sim);
+  EXPECT_EQ(vote.particle, 33u);
+  EXPECT_EQ(vote.reason, "crack growth");
+  EXPECT_NEAR(vote.dt, 0.2 / 4e9, 1e-24);
+}
+
 TEST(TimeStep, DoesNotDependOnTheFrame) {
   const auto at_rest = start<3>(porous_impact);
   const auto moving = start<3>(porous_impact, {"bodies[0].velocity=[\"10 km/s\", 0, \"1 km/s\"]",

@@ -1,0 +1,140 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "material/tensor_damage.hpp"
+#include "simulation/stages.hpp"
+#include "unit/simulation/small_scenes.hpp"
+
+namespace ejecta {
+namespace {
+
+/// A block of basalt with tensor damage, whose particles do not act on one another: stages are called by hand.
+template <int Dim>
+struct Element {
+  std::unique_ptr<Simulation<Dim>> sim;
+  Particles<Dim>& p;
+  explicit Element(const std::string& strain, const std::vector<std::string>& more = {})
+      : sim(start<Dim>(std::string("[scene]\nname = \"element\"\ndimension = ") + (Dim == 2 ? "2" : "3") + R"(
+[resolution]
+spacing = "1 mm"
+[time]
+end = "1 ms"
+[[bodies]]
+name = "rock"
+material = "basalt"
+shape = ")" + (Dim == 2 ? "rectangle" : "box") +
+                           R"("
+size = ["1 mm", "1 mm", "1 mm"]
+[materials.basalt.damage]
+model = "grady_kipp_tensor"
+weibull_m = 8.5
+weibull_k = "5e34 1/m^3"
+strain = ")" + strain + "\"\n",
+                       more)),
+        p(sim->particles) {}
+  double& at(Field f, int component = 0) { return p.column(f, component)[0]; }
+  void set_gradient(const Mat<Dim>& gradient) {
+    for (const Field f : {Field::velocity_gradient, Field::coupled_gradient})
+      for (int a = 0; a < Dim && p.has(f); ++a)
+        for (int b = 0; b < Dim; ++b) at(f, a * Dim + b) = gradient(a, b);
+  }
+  void run(double dt) {
+    sim->clock.dt = dt;
+    damage(*sim);
+  }
+};
+
+/// A damaged, strained element makes a full turn: nothing but round-off is left.
+template <int Dim>
+void expect_a_full_turn_returns(const std::string& strain, int steps) {
+  Element<Dim> element(strain);
+  Mat<Dim> spin = Mat<Dim>::Zero();
+  spin(0, 1) = -3, spin(1, 0) = 3;
+  if (Dim == 3) spin(0, Dim - 1) = 4, spin(Dim - 1, 0) = -4;
+  element.set_gradient(spin);
+  Mat<Dim> damaged = Mat<Dim>::Zero(), strained = Mat<Dim>::Zero();
+  damaged(0, 0) = 0.8, damaged(1, 1) = 0.3, damaged(0, 1) = damaged(1, 0) = 0.2;
+  strained(0, 0) = 0.3, strained(1, 1) = -0.1, strained(0, 1) = strained(1, 0) = 0.05;
+  element.at(Field::flaw_strain) = 1e3;  // no crack grows
+  element.p.set_symmetric(Field::damage_tensor, 0, damaged);
+  element.p.set_symmetric(Field::strain_history, 0, strained);
+  double quarter_error = 0;
+  for (int k = 1; k <= steps; ++k) {
+    element.run(2 * std::numbers::pi / ((Dim == 2 ? 3 : 5) * steps));
+    if (Dim == 2 && 4 * k == steps) {
+      const Mat<Dim> now = element.p.symmetric(Field::damage_tensor, 0);
+      quarter_error = std::abs(now(0, 0) - 0.3) + std::abs(now(1, 1) - 0.8) + std::abs(now(0, 1) + 0.2);
+    }
+  }
+  EXPECT_LT(quarter_error, 1e-12);
+  EXPECT_LT((element.p.symmetric(Field::damage_tensor, 0) - damaged).norm(), 1e-12);
+  EXPECT_LT((element.p.symmetric(Field::strain_history, 0) - strained).norm(), 1e-12);
+}
+
+TEST(TensorDamageStage, AFullTurnReturnsDamageAndStrainHistory) {
+  for (const int steps : {200, 2000})
+    for (const char* strain : {"pseudo_plastic", "strain_history"}) {
+      expect_a_full_turn_returns<2>(strain, steps);
+      expect_a_full_turn_returns<3>(strain, steps);
+    }
+}
+
+/// Stretched along x at a steady rate: the accumulated strain, and the crack it opens, against the integral
+/// D^(1/3) = c_g/R int (strain/weakest)^m dt from the opening of the weakest flaw on.
+void expect_hand_integration(const std::string& strain, double share) {
+  Element<3> element(strain);
+  const double rate = 4e4, weakest = 2e-3, exponent = 3;
+  element.at(Field::flaw_strain) = weakest;
+  element.at(Field::flaw_exponent) = exponent;
+  element.at(Field::flaw_count) = 1000;
+  Mat<3> gradient = Mat<3>::Zero();
+  gradient(0, 0) = rate;
+  element.set_gradient(gradient);
+  const double speed = 0.4 * element.at(Field::sound_speed), h = element.at(Field::smoothing_length);
+  const double opens = weakest / (share * rate), end = 1.5 * opens;
+  // The cracks stay short of the share of the flaws that are open.
+  const double crack = speed / h * opens / (exponent + 1) * (std::pow(1.5, exponent + 1) - 1);
+  ASSERT_LT(crack, 0.15) << "the test asks for a small crack";
+  const int steps = 20000;
+  for (int k = 0; k < steps; ++k) element.run(end / steps);
+  const Mat<3> history = element.p.symmetric(Field::strain_history, 0);
+  EXPECT_NEAR(history(0, 0), share * rate * end, 1e-10);
+  EXPECT_NEAR(history(1, 1), share == 1 ? 0 : -rate * end / 3, 1e-10);
+  EXPECT_NEAR(std::cbrt(element.at(Field::damage_tensor)), crack, 1e-3 * crack);
+  EXPECT_EQ(element.at(Field::damage), element.at(Field::damage_tensor)) << "the largest eigenvalue";
+  EXPECT_EQ(element.at(Field::damage_tensor, 1), 0);
+}
+
+TEST(TensorDamageStage, AccumulatesStrainAndCracksAsIntegratedByHand) {
+  expect_hand_integration("strain_history", 1);
+  expect_hand_integration("pseudo_plastic", 2.0 / 3);
+}
+
+TEST(TensorDamageStage, BenzAsphaugGrowsAsTheScalarModelUnderSteadyTension) {
+  Element<3> element("benz_asphaug");
+  EXPECT_FALSE(element.p.has(Field::strain_history));
+  EXPECT_FALSE(element.p.has(Field::crack)) << "the scalar model's";
+  element.at(Field::flaw_strain) = 1e-3;
+  element.at(Field::flaw_exponent) = 3;
+  element.at(Field::flaw_count) = 64;
+  const double young = element.sim->materials[0].elastic->young(), sigma = 2e-3 * young;
+  const double rate = 8 * 0.4 * element.at(Field::sound_speed) / element.at(Field::smoothing_length);
+  const double dt = 0.1 / rate;
+  for (int k = 0; k < 3; ++k) {
+    element.at(Field::pressure) = -sigma / 3;
+    element.at(Field::deviatoric_stress, 0) = 2 * sigma / 3;
+    element.at(Field::deviatoric_stress, 1) = -sigma / 3;
+    element.run(dt);
+    EXPECT_NEAR(element.at(Field::damage_tensor_growth), rate, 1e-9 * rate);
+  }
+  const double d = 0.3 * 0.3 * 0.3;
+  EXPECT_NEAR(element.at(Field::damage_tensor), d, 1e-12);
+  EXPECT_NEAR(element.at(Field::damage), d, 1e-12);
+  EXPECT_NEAR(element.at(Field::pressure), -(1 - d) * sigma / 3, 1e-6 * sigma);
+  EXPECT_EQ(element.sim->intact[0], 1) << "the deviator is cut pair by pair";
+}
+
+}  // namespace
+}  // namespace ejecta
