@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 
@@ -134,6 +135,106 @@ TEST(TensorDamageStage, BenzAsphaugGrowsAsTheScalarModelUnderSteadyTension) {
   EXPECT_NEAR(element.at(Field::damage), d, 1e-12);
   EXPECT_NEAR(element.at(Field::pressure), -(1 - d) * sigma / 3, 1e-6 * sigma);
   EXPECT_EQ(element.sim->intact[0], 1) << "the deviator is cut pair by pair";
+}
+
+TEST(TensorDamageStage, BrokenRockWithAFrictionLawYieldsByItsLargestEigenvalueAndCutsNoPairs) {
+  const std::vector<std::string> friction{"materials.basalt.strength.model=drucker_prager",
+                                          "materials.basalt.strength.cohesion=10 MPa",
+                                          "materials.basalt.strength.friction_angle=30 deg"};
+  Element<3> element("strain_history", friction), bonded("strain_history");
+  EXPECT_FALSE(element.sim->materials[0].cuts_pairs());
+  EXPECT_TRUE(bonded.sim->materials[0].cuts_pairs());
+  for (auto* e : {&element, &bonded}) {
+    e->p.set_symmetric(Field::damage_tensor, 0, Vec<3>(0.2, 1, 0).asDiagonal());
+    e->at(Field::pressure) = 1e9;
+    e->run(0);
+    EXPECT_NEAR(e->at(Field::damage), 1, 1e-15);
+    EXPECT_EQ(e->sim->intact[0], 1);
+    e->at(Field::pressure) = 0;
+    e->at(Field::deviatoric_stress, 2) = 1e6;
+    strength(*e->sim);
+  }
+  EXPECT_EQ(element.at(Field::deviatoric_stress, 2), 0) << "no cohesion is left, and no pressure rubs";
+  EXPECT_EQ(bonded.at(Field::deviatoric_stress, 2), 1e6) << "what is left depends on the direction of the pair";
+}
+
+/// Pumice with tensor damage hit by basalt with scalar damage: both in one run, both break.
+TEST(TensorDamageStage, ScalarAndTensorDamageGoTogether) {
+  const std::vector<std::string> both{"bodies.ball.material=basalt", "materials.pumice.damage.model=grady_kipp_tensor",
+                                      "materials.pumice.damage.weibull_m=9.5",
+                                      "materials.pumice.damage.weibull_k=1.6e44 1/m^3",
+                                      "materials.pumice.damage.strain=strain_history"};
+  const auto sim = start<3>(porous_impact, both);
+  const Particles<3>& p = sim->particles;
+  auto before = by_id(p, Field::damage);
+  for (int k = 0; k < 150; ++k) {
+    step(*sim, no_limit);
+    const auto after = by_id(p, Field::damage);
+    for (std::size_t i = 0; i < after.size(); ++i) ASSERT_GE(after[i], before[i]) << "nothing heals";
+    before = after;
+  }
+  double scalar = 0, tensor = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const double largest = largest_eigenvalue<3>(p.symmetric(Field::damage_tensor, i));
+    ASSERT_LE(largest, 1 + 1e-12);
+    if (sim->materials[static_cast<std::size_t>(p.label(Label::material)[i])].tensor_damage()) {
+      tensor = std::max(tensor, largest);
+      EXPECT_EQ(p.column(Field::crack)[i], 0);
+      EXPECT_GE(p.column(Field::damage)[i], std::min(largest, 1.0) - 1e-12);
+    } else {
+      scalar = std::max(scalar, p.column(Field::crack)[i]);
+      EXPECT_EQ(largest, 0);
+    }
+  }
+  EXPECT_GT(scalar, 0.9);
+  EXPECT_GT(tensor, 0.9);
+  EXPECT_LT(std::abs(conservation_errors(sim->initial, totals(p)).energy), 1e-12);
+}
+
+/// A disc that spins steadily, with cracks across x: after a quarter turn they lie across y, in every particle inside.
+TEST(TensorDamageStage, CracksTurnWithTheBody) {
+  const auto sim = start<2>(R"([scene]
+name = "disc"
+dimension = 2
+[resolution]
+spacing = "1 mm"
+[time]
+end = "1 s"
+[numerics]
+gradient_correction = true
+[[bodies]]
+name = "disc"
+material = "basalt"
+shape = "disc"
+radius = "6 mm"
+[bodies.profile]
+velocity = ["-40000*y", "40000*x"]
+[materials.basalt.damage]
+model = "grady_kipp_tensor"
+weibull_m = 8.5
+weibull_k = "1e-30 1/m^3"
+)");
+  Particles<2>& p = sim->particles;
+  Mat<2> across_x = Mat<2>::Zero();
+  across_x(0, 0) = 0.5;
+  for (std::size_t i = 0; i < p.size(); ++i) p.set_symmetric(Field::damage_tensor, i, across_x);
+  const auto x0 = by_id(p, Field::position, 0), y0 = by_id(p, Field::position, 1);
+  const double quarter = 0.5 * std::numbers::pi / 40000;
+  while (sim->clock.time < quarter * (1 - 1e-12)) step(*sim, quarter - sim->clock.time);
+  double worst = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const Mat<2> damage = p.symmetric(Field::damage_tensor, i);
+    EXPECT_NEAR(largest_eigenvalue<2>(damage), 0.5, 1e-12);
+    EXPECT_NEAR(damage.trace(), 0.5, 1e-12);
+    // The disc widens under the centrifugal load and turns a little less: the matter itself says by how much.
+    const auto id = static_cast<std::size_t>(p.label(Label::id)[i]);
+    const Vec<2> from(x0[id], y0[id]), to = p.vector(Field::position, i);
+    const double turn = std::atan2(from[0] * to[1] - from[1] * to[0], from.dot(to));
+    const Mat<2> expected = turned<2>(across_x, Eigen::Rotation2Dd(turn).toRotationMatrix());
+    worst = std::max(worst, (damage - expected).norm() / (0.5 * std::numbers::sqrt2));
+  }
+  printf("  orientation error %.2g rad in %d steps\n", worst, static_cast<int>(sim->clock.step));
+  EXPECT_LT(worst, 0.003);
 }
 
 }  // namespace
