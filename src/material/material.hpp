@@ -32,6 +32,10 @@ struct Material {
     return tensor_damage() && strength &&
            std::visit([](const auto& s) { return s.intact_fraction(1) != 1; }, *strength);
   }
+  /// The model of a shear modulus that depends on the state; null if it is the constant of `elastic`.
+  const SteinbergGuinan* variable_shear() const {
+    return strength ? std::get_if<SteinbergGuinan>(&*strength) : nullptr;
+  }
 };
 
 }  // namespace ejecta

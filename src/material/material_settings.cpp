@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "scene/units.hpp"
@@ -16,9 +18,23 @@ struct Named {
   std::string_view name;
   Model initial;
 };
-const std::array<Named<Eos>, 2> eos_models{{{"ideal_gas", IdealGas{}}, {"tillotson", Tillotson{}}}};
-const std::array<Named<Strength>, 4> strength_models{
-    {{"von_mises", VonMises{}}, {"drucker_prager", DruckerPrager{}}, {"lundborg", Lundborg{}}, {"collins", Collins{}}}};
+/// Optional constants are not set rather than infinite, so that none is echoed that was not given.
+MieGrueneisen without_heat() {
+  MieGrueneisen eos{};
+  eos.heat_capacity = eos.melt_temperature = unset;
+  return eos;
+}
+
+const std::array<Named<Eos>, 4> eos_models{{{"ideal_gas", IdealGas{}},
+                                            {"tillotson", Tillotson{}},
+                                            {"mie_grueneisen", without_heat()},
+                                            {"linear", LinearEos{}}}};
+const std::array<Named<Strength>, 6> strength_models{{{"von_mises", VonMises{}},
+                                                      {"drucker_prager", DruckerPrager{}},
+                                                      {"lundborg", Lundborg{}},
+                                                      {"collins", Collins{}},
+                                                      {"steinberg_guinan", SteinbergGuinan{}},
+                                                      {"johnson_cook", JohnsonCook{}}}};
 const std::vector<std::string> damage_models{"none", "grady_kipp", "grady_kipp_tensor"};
 const std::vector<std::string> porosity_models{"none", "quadratic", "two_power"};
 
@@ -34,6 +50,11 @@ template <std::size_t N, class Model>
 void start(Model& model, const std::string& name, const std::array<Named<Model>, N>& models) {
   for (const auto& candidate : models)
     if (candidate.name == name) model = candidate.initial;
+}
+
+/// Models that melt at the melting temperature of the equation of state.
+bool knows_temperature(const Strength& strength) {
+  return std::holds_alternative<SteinbergGuinan>(strength) || std::holds_alternative<JohnsonCook>(strength);
 }
 
 /// A constant without a default.
@@ -59,6 +80,31 @@ void describe(Describer& d, Tillotson& t) {
   constant(d, "beta", t.beta, "1", positive, "exponential decay in expansion");
 }
 
+void describe(Describer& d, MieGrueneisen& m) {
+  constant(d, "density", m.rho0, "kg/m^3", positive, "reference density, without pores");
+  constant(d, "c0", m.c0, "m/s", positive, "shock speed at vanishing particle speed");
+  constant(d, "S1", m.S1, "1", positive, "slope of the shock speed with the particle speed");
+  d.number("S2", m.S2, "1", any_number, "its curvature");
+  d.number("S3", m.S3, "1", any_number, "the next order");
+  constant(d, "gamma0", m.gamma0, "1", non_negative, "Grueneisen parameter at reference density");
+  d.number("b", m.b, "1", non_negative, "Grueneisen parameter times density ratio: gamma0 + b mu in compression");
+  d.number("eta_min", m.eta_min, "1", {.min = 0, .max = 1, .open_min = true},
+           "density ratio below which the pressure falls to zero with the density");
+  d.number("eta_max", m.eta_max, "1", {.min = 1, .open_min = true},
+           "density ratio from which the pressure follows its tangent");
+  d.number("heat_capacity", m.heat_capacity, "J/kg/K", positive, "for strength that knows the temperature");
+  d.number("reference_temperature", m.reference_temperature, "K", positive, "at reference density and zero energy");
+  d.number("melt_temperature", m.melt_temperature, "K", positive, "at reference density; else it never melts");
+  d.number("melt_exponent", m.melt_exponent, "1", non_negative,
+           "a of Lindemann's law; else the melting temperature does not depend on the density");
+}
+
+void describe(Describer& d, LinearEos& l) {
+  constant(d, "density", l.rho0, "kg/m^3", positive, "reference density, without pores");
+  constant(d, "c0", l.c0, "m/s", positive, "sound speed");
+  d.number("gamma0", l.gamma0, "1", non_negative, "Grueneisen parameter; 0: no heat in the pressure");
+}
+
 constexpr Limits below_right_angle{.min = 0, .max = std::numbers::pi / 2};
 
 void describe(Describer& d, VonMises& m) {
@@ -77,6 +123,25 @@ void describe(Describer& d, Collins& m) {
   describe(d, m.intact);
   constant(d, "damaged_cohesion", m.damaged_cohesion, "Pa", non_negative, "of broken rock");
   constant(d, "damaged_friction", m.damaged_friction, "1", non_negative, "coefficient of friction of broken rock");
+}
+
+void describe(Describer& d, SteinbergGuinan& m) {
+  constant(d, "yield_stress", m.yield_stress, "Pa", positive, "uniaxial, before any plastic strain");
+  constant(d, "yield_limit", m.yield_limit, "Pa", positive, "that hardening leads to");
+  constant(d, "hardening", m.hardening, "1", non_negative, "beta of (1 + beta strain)^n");
+  constant(d, "hardening_exponent", m.hardening_exponent, "1", non_negative, "n");
+  d.number("initial_strain", m.initial_strain, "1", non_negative, "plastic strain of earlier work on the metal");
+  d.number("stiffening", m.stiffening, "1/Pa", non_negative, "relative growth of the shear modulus with pressure");
+  d.number("softening", m.softening, "1/K", non_negative, "its relative fall with temperature");
+  d.number("melt_width", m.melt_width, "1", non_negative, "share of the melting temperature in which it softens");
+}
+void describe(Describer& d, JohnsonCook& m) {
+  constant(d, "yield_stress", m.yield_stress, "Pa", positive, "A: uniaxial, at the reference rate");
+  constant(d, "hardening", m.hardening, "Pa", non_negative, "B of A + B strain^n");
+  constant(d, "hardening_exponent", m.hardening_exponent, "1", positive, "n");
+  constant(d, "rate_factor", m.rate_factor, "1", non_negative, "C of 1 + C ln(rate/reference rate)");
+  constant(d, "softening_exponent", m.softening_exponent, "1", positive, "m of 1 - T*^m");
+  d.number("reference_rate", m.reference_rate, "1/s", positive, "of plastic strain; slower flow bears as much");
 }
 
 void describe(Describer& d, GradyKipp& m, bool tensor) {
@@ -105,6 +170,41 @@ void describe(Describer& d, PorositySettings& p, bool two_power) {
   d.number("sound_speed", p.sound_speed, "m/s", non_negative, "of the uncrushed body; 0: that of the solid");
   d.flag("stress_factor", p.stress_factor, "deviatoric stress follows the strain of the solid, not of the pores");
   d.flag("crush_damage", p.crush_damage, "crushing pores damages the material");
+}
+
+using Report = std::function<void(const std::string& path, const std::string& message)>;
+
+void check_mie_grueneisen(const MieGrueneisen& m, const Report& report) {
+  if (m.rho0 == 0 || m.c0 == 0) return;  // reported as missing
+  for (int k = 1; k <= 200; ++k) {
+    const double mu = (m.eta_max - 1) * k / 200;
+    if (m.denominator(mu) <= 0 || m.evaluate((1 + mu) * m.rho0, 0).dP_drho <= 0)
+      return report("eos.eta_max", fmt::format("expected less than {:.4g}, where cold pressure no longer grows with "
+                                               "density for these S1, S2, S3, gamma0 and b",
+                                               1 + mu));
+  }
+  if (m.melt_temperature <= m.reference_temperature)
+    report("eos.melt_temperature",
+           fmt::format("expected more than reference_temperature ({})", format_quantity(m.reference_temperature, "K")));
+}
+
+void check_metal(const MaterialSettings& s, const Report& report) {
+  const auto* eos = std::get_if<MieGrueneisen>(&s.eos);
+  if (!eos) return report("strength.model", "needs the temperature of eos.model = \"mie_grueneisen\"");
+  const auto needs_heat = [&](bool does) {
+    if (does && !is_set(eos->heat_capacity))
+      report("eos.heat_capacity", "missing: the strength depends on the temperature");
+  };
+  if (const auto* m = std::get_if<SteinbergGuinan>(&s.strength)) {
+    if (m->yield_limit != 0 && m->yield_limit < m->yield_stress)
+      report("strength.yield_limit",
+             fmt::format("expected at least the yield stress ({})", format_quantity(m->yield_stress, "Pa")));
+    needs_heat(m->softening > 0 || is_set(eos->melt_temperature));
+  } else {
+    needs_heat(true);
+    if (!is_set(eos->melt_temperature))
+      report("eos.melt_temperature", "missing: the strength depends on the temperature");
+  }
 }
 
 }  // namespace
@@ -150,7 +250,8 @@ void describe(Describer& d, MaterialSettings& s) {
   model(s.strength_model, words(strength_models, true), "none: elastic without limit");
   if (s.strength_model != "none") {
     std::visit([&](auto& strength) { describe(d, strength); }, s.strength);
-    d.number("melt_energy", s.melt_energy, "J/kg", positive, "at which no strength is left; else it never softens");
+    if (!knows_temperature(s.strength))
+      d.number("melt_energy", s.melt_energy, "J/kg", positive, "at which no strength is left; else it never softens");
   }
   d.section("damage", fmt::format("brittle fracture: {}", s.damage_model));
   model(s.damage_model, damage_models, "none: never breaks");
@@ -167,6 +268,8 @@ void check_settings(const MaterialSettings& s, const Document& document, Problem
   const bool gas = std::holds_alternative<IdealGas>(s.eos);
   if (const auto* t = std::get_if<Tillotson>(&s.eos); t && t->E_cv != 0 && t->E_cv <= t->E_iv)
     report("eos.E_cv", fmt::format("expected more than E_iv ({})", format_quantity(t->E_iv, "J/kg")));
+  if (const auto* m = std::get_if<MieGrueneisen>(&s.eos)) check_mie_grueneisen(*m, report);
+  if (s.strength_model != "none" && knows_temperature(s.strength)) check_metal(s, report);
   if (gas && s.has_elastic) report("elastic", "an ideal gas has no moduli");
   if (gas && s.porosity_model != "none") report("porosity.model", "an ideal gas has no pores");
   if (!s.has_elastic && s.strength_model != "none") report("strength.model", "needs section [elastic]");
@@ -198,6 +301,10 @@ Material make_material(const std::string& name, const MaterialSettings& s) {
   Material material;
   material.name = name;
   material.eos = s.eos;
+  if (auto* eos = std::get_if<MieGrueneisen>(&material.eos)) {
+    if (!is_set(eos->heat_capacity)) eos->heat_capacity = std::numeric_limits<double>::infinity();
+    if (!is_set(eos->melt_temperature)) eos->melt_temperature = std::numeric_limits<double>::infinity();
+  }
   if (s.has_elastic) material.elastic = s.elastic;
   if (s.strength_model != "none") material.strength = s.strength;
   if (is_set(s.melt_energy)) material.melt_energy = s.melt_energy;
@@ -220,8 +327,9 @@ std::vector<MaterialSettings> every_model() {
   std::vector<MaterialSettings> all;
   for (std::size_t k = 0; k < strength_models.size(); ++k) {
     MaterialSettings s;
-    s.eos_model = eos_models[k % eos_models.size()].name;
-    s.eos = eos_models[k % eos_models.size()].initial;
+    const auto& [eos_name, eos] = eos_models[k % eos_models.size()];
+    s.eos_model = eos_name;
+    s.eos = eos;
     s.has_elastic = true;
     s.strength_model = strength_models[k].name;
     s.strength = strength_models[k].initial;

@@ -2,7 +2,8 @@
 /// How much deviatoric stress a material bears. One convention for all models: yield() is a limit on the von Mises
 /// equivalent stress sqrt(3 J2). The friction laws are published as limits on the shear stress sqrt(J2) and keep their
 /// published parameters; they are converted here by sqrt(3), once. Pressures are those of the solid (alpha P in a
-/// porous material), compression positive. All values are cold: multiply by melt_factor().
+/// porous material), compression positive. All values are cold, multiply by melt_factor(), but those of the metals,
+/// which know their temperature.
 ///
 /// intact_fraction(D) scales the deviator where forces are computed: 1 - D for models that know nothing of damaged
 /// material (Benz & Asphaug 1994, Icarus 107, 98), 1 for those whose damaged branch is itself a friction law.
@@ -12,6 +13,10 @@
 #include <variant>
 
 #include "material/deviator.hpp"
+#include "material/hardening.hpp"
+#include "material/johnson_cook.hpp"
+#include "material/steinberg_guinan.hpp"
+#include "material/strength_state.hpp"
 
 namespace ejecta {
 
@@ -19,7 +24,7 @@ namespace ejecta {
 struct VonMises {
   double yield_stress;  ///< limit of sqrt(3 J2) [Pa]
 
-  double yield(double, double) const { return yield_stress; }
+  double yield(const StrengthState&) const { return yield_stress; }
   double intact_fraction(double damage) const { return 1 - damage; }
 };
 
@@ -30,9 +35,9 @@ struct DruckerPrager {
   double cohesion;        ///< c [Pa]
   double friction_angle;  ///< phi [rad]
 
-  double yield(double pressure, double damage) const {
+  double yield(const StrengthState& s) const {
     const double sine = std::sin(friction_angle);
-    return std::max(0.0, 6 * (cohesion * (1 - damage) * std::cos(friction_angle) + pressure * sine) / (3 - sine));
+    return std::max(0.0, 6 * (cohesion * (1 - s.damage) * std::cos(friction_angle) + s.pressure * sine) / (3 - sine));
   }
   double intact_fraction(double) const { return 1; }
 };
@@ -43,8 +48,8 @@ struct Lundborg {
   double friction;  ///< coefficient of internal friction mu
   double limit;     ///< Y_max, the shear strength at infinite pressure, > c [Pa]
 
-  double yield(double pressure, double) const {
-    const double load = friction * std::max(pressure, 0.0);
+  double yield(const StrengthState& s) const {
+    const double load = friction * std::max(s.pressure, 0.0);
     return std::numbers::sqrt3 * (cohesion + load / (1 + load / (limit - cohesion)));
   }
   double intact_fraction(double damage) const { return 1 - damage; }
@@ -57,16 +62,22 @@ struct Collins {
   double damaged_cohesion;  ///< c_d [Pa]
   double damaged_friction;  ///< mu_d; in tension the broken rock's strength falls as c_d + P
 
-  double yield(double pressure, double damage) const {
-    const double whole = intact.yield(pressure, 0);
-    const double friction = pressure > 0 ? damaged_friction : 1;
-    const double broken = std::numbers::sqrt3 * (damaged_cohesion + friction * pressure);
-    return (1 - damage) * whole + damage * std::clamp(broken, 0.0, whole);
+  double yield(const StrengthState& s) const {
+    const double whole = intact.yield(s);
+    const double friction = s.pressure > 0 ? damaged_friction : 1;
+    const double broken = std::numbers::sqrt3 * (damaged_cohesion + friction * s.pressure);
+    return (1 - s.damage) * whole + s.damage * std::clamp(broken, 0.0, whole);
   }
   double intact_fraction(double) const { return 1; }
 };
 
-using Strength = std::variant<VonMises, DruckerPrager, Lundborg, Collins>;
+using Strength = std::variant<VonMises, DruckerPrager, Lundborg, Collins, SteinbergGuinan, JohnsonCook>;
+
+/// Whether the yield stress of a model grows with the plastic flow itself; then flow() finds the two together.
+template <class Model>
+inline constexpr bool hardens = requires {
+  Model::hardening_law;
+};
 
 /// Fraction of the cold strength left at specific energy e: max(0, 1 - e/e_melt) (Benz & Asphaug 1999, Icarus 142, 5).
 /// An infinite melt energy means the material never softens.
@@ -84,6 +95,15 @@ RadialReturn radial_return(const Deviator<Dim>& trial, double yield, double shea
   const double equivalent = equivalent_stress<Dim>(trial);
   if (equivalent <= yield) return {1, 0};
   return {yield / equivalent, (equivalent - yield) / (3 * shear_modulus)};
+}
+
+/// The same with a yield stress that grows with the flow, during a step of dt [s] from this state on.
+template <int Dim, class Model>
+requires hardens<Model> RadialReturn radial_return(const Deviator<Dim>& trial, const Model& model,
+                                                   const StrengthState& state, double shear_modulus, double dt) {
+  const double equivalent = equivalent_stress<Dim>(trial);
+  const PlasticFlow f = flow(model, state, equivalent, shear_modulus, dt);
+  return equivalent <= f.yield ? RadialReturn{1, 0} : RadialReturn{f.yield / equivalent, f.plastic_strain};
 }
 
 }  // namespace ejecta

@@ -27,6 +27,7 @@ const std::array<FieldInfo, field_count>& field_catalogue() {
       {Field::approach_speed, "approach_speed", scalar, "m/s", derived, "largest |mu| of the viscosity over the pairs"},
       {Field::deviatoric_stress, "deviatoric_stress", deviator, "Pa", state, "stress deviator before damage"},
       {Field::stress_rate, "stress_rate", deviator, "Pa/s", rate, "objective rate of the stress deviator"},
+      {Field::shear_modulus, "shear_modulus", scalar, "Pa", derived, "of the solid, where it varies; 0 when melted"},
       {Field::plastic_strain, "plastic_strain", scalar, "1", state, "accumulated equivalent plastic strain"},
       {Field::distension, "distension", scalar, "1", state, "alpha = solid density / bulk density"},
       {Field::stress_factor, "stress_factor", scalar, "1", derived, "share of the strain rate that the solid sees"},

@@ -26,6 +26,7 @@ enum class Field {
   approach_speed,
   deviatoric_stress,
   stress_rate,
+  shear_modulus,
   plastic_strain,
   distension,
   stress_factor,

@@ -16,12 +16,12 @@ double longitudinal(double fluid_speed, double shear_modulus, double solid_densi
   return std::sqrt(fluid_speed * fluid_speed + 4 * shear_modulus / (3 * std::max(solid_density, rest_density)));
 }
 
-template <int Dim, class EosT>
-void porous_state(Simulation<Dim>& sim, const Material& material, const EosT& eos, Range range) {
+/// shear(i, solid, rho_s, e) is the shear modulus of particle i with this state of its solid.
+template <int Dim, class EosT, class Shear>
+void porous_state(Simulation<Dim>& sim, const Material& material, const EosT& eos, Range range, const Shear& shear) {
   Particles<Dim>& p = sim.particles;
   const Porosity& porosity = *material.porosity;
   const Numerics& numerics = sim.scene.numerics;
-  const double shear = material.solid() ? material.elastic->shear_modulus : 0;
   const auto rho = p.column(Field::density), e = p.column(Field::specific_energy);
   auto pressure = p.column(Field::pressure), sound = p.column(Field::sound_speed), alpha = p.column(Field::distension);
   const bool coupled = p.has(Field::stress_factor);
@@ -32,8 +32,9 @@ void porous_state(Simulation<Dim>& sim, const Material& material, const EosT& eo
     alpha[i] = r.alpha;
     pressure[i] = bulk_pressure(r.solid, r.alpha);
     const double solid_density = r.alpha * rho[i];
-    const double solid_speed = longitudinal(ejecta::sound_speed(r.solid, solid_density, eos.sound_speed_floor()), shear,
-                                            solid_density, eos.reference_density());
+    const double solid_speed =
+        longitudinal(ejecta::sound_speed(r.solid, solid_density, eos.sound_speed_floor()),
+                     shear(i, r.solid, solid_density, e[i]), solid_density, eos.reference_density());
     sound[i] = porous_sound_speed(porosity, solid_speed, r.alpha);
     if (coupled)
       p.column(Field::stress_factor)[i] =
@@ -42,17 +43,16 @@ void porous_state(Simulation<Dim>& sim, const Material& material, const EosT& eo
   });
 }
 
-template <int Dim, class EosT>
-void dense_state(Simulation<Dim>& sim, const Material& material, const EosT& eos, Range range) {
+template <int Dim, class EosT, class Shear>
+void dense_state(Simulation<Dim>& sim, const EosT& eos, Range range, const Shear& shear) {
   Particles<Dim>& p = sim.particles;
-  const double shear = material.solid() ? material.elastic->shear_modulus : 0;
   const auto rho = p.column(Field::density), e = p.column(Field::specific_energy);
   auto pressure = p.column(Field::pressure), sound = p.column(Field::sound_speed);
   parallel_for(range.begin, range.end, [&](std::size_t i) {
     const EosPoint point = eos.evaluate(rho[i], e[i]);
     pressure[i] = point.pressure;
-    sound[i] = longitudinal(ejecta::sound_speed(point, rho[i], eos.sound_speed_floor()), shear, rho[i],
-                            eos.reference_density());
+    sound[i] = longitudinal(ejecta::sound_speed(point, rho[i], eos.sound_speed_floor()), shear(i, point, rho[i], e[i]),
+                            rho[i], eos.reference_density());
   });
 }
 
@@ -65,11 +65,22 @@ void equation_of_state(Simulation<Dim>& sim) {
     const Range range = sim.particles.material_ranges()[m];
     std::visit(
         [&](const auto& eos) {
-          if (material.porosity) {
-            porous_state(sim, material, eos, range);
-          } else {
-            dense_state(sim, material, eos, range);
-          }
+          const auto run = [&](const auto& shear) {
+            if (material.porosity) {
+              porous_state(sim, material, eos, range, shear);
+            } else {
+              dense_state(sim, eos, range, shear);
+            }
+          };
+          const double constant = material.solid() ? material.elastic->shear_modulus : 0;
+          if (!sim.particles.has(Field::shear_modulus)) return run([=](auto&&...) { return constant; });
+          const SteinbergGuinan* model = material.variable_shear();
+          auto modulus = sim.particles.column(Field::shear_modulus);
+          run([&](std::size_t i, const EosPoint& solid, double rho, double e) {
+            const double eta = rho / eos.reference_density();
+            return modulus[i] =
+                       model ? constant * model->shear_factor(solid.pressure, eta, warmth(eos, rho, e)) : constant;
+          });
         },
         material.eos);
   }
@@ -78,27 +89,37 @@ void equation_of_state(Simulation<Dim>& sim) {
 template <int Dim>
 void strength(Simulation<Dim>& sim) {
   Particles<Dim>& p = sim.particles;
+  const bool damaged = p.has(Field::damage), variable_shear = p.has(Field::shear_modulus);
   for (std::size_t m = 0; m < sim.materials.size(); ++m) {
     const Material& material = sim.materials[m];
     if (!material.solid() || !material.strength) continue;
     const Range range = p.material_ranges()[m];
-    const bool damaged = p.has(Field::damage);
     std::visit(
-        [&](const auto& model) {
+        [&](const auto& model, const auto& eos) {
           parallel_for(range.begin, range.end, [&](std::size_t i) {
             // The model speaks of the solid: its pressure is alpha P, and the body bears 1/alpha of its stress.
-            const double alpha = distension_of(p, material, i);
-            const double cold =
-                model.yield(alpha * p.column(Field::pressure)[i], damaged ? p.column(Field::damage)[i] : 0.0);
-            const double yield = cold * melt_factor(p.column(Field::specific_energy)[i], material.melt_energy) / alpha;
-            const RadialReturn r =
-                radial_return<Dim>(deviator<Dim>(p, i), yield, material.elastic->shear_modulus / alpha);
+            const double alpha = distension_of(p, material, i), e = p.column(Field::specific_energy)[i];
+            const double shear = variable_shear ? p.column(Field::shear_modulus)[i] : material.elastic->shear_modulus;
+            StrengthState state{.pressure = alpha * p.column(Field::pressure)[i],
+                                .damage = damaged ? p.column(Field::damage)[i] : 0.0};
+            const Deviator<Dim> trial = deviator<Dim>(p, i);
+            RadialReturn r;
+            if constexpr (hardens<std::decay_t<decltype(model)>>) {
+              state.plastic_strain = p.column(Field::plastic_strain)[i];
+              state.shear_factor = shear / material.elastic->shear_modulus;
+              if (!material.variable_shear())  // else the modulus has brought the temperature with it
+                state.warmth = warmth(eos, alpha * p.column(Field::density)[i], e);
+              r = radial_return<Dim>(alpha * trial, model, state, shear, sim.clock.dt);
+            } else {
+              const double yield = model.yield(state) * melt_factor(e, material.melt_energy);
+              r = radial_return<Dim>(trial, yield / alpha, shear / alpha);
+            }
             if (r.scale == 1) return;
             for (int k = 0; k < deviator_size<Dim>; ++k) p.column(Field::deviatoric_stress, k)[i] *= r.scale;
             p.column(Field::plastic_strain)[i] += r.plastic_strain;
           });
         },
-        *material.strength);
+        *material.strength, material.eos);
   }
 }
 

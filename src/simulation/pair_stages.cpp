@@ -38,7 +38,7 @@ void pair_rates(Simulation<Dim>& sim) {
 template <int Dim>
 void strain_rates(Simulation<Dim>& sim) {
   Particles<Dim>& p = sim.particles;
-  const bool continuity = p.has(Field::density_rate);
+  const bool continuity = p.has(Field::density_rate), variable_shear = p.has(Field::shear_modulus);
   for (std::size_t m = 0; m < sim.materials.size(); ++m) {
     const Material& material = sim.materials[m];
     const Range range = p.material_ranges()[m];
@@ -47,7 +47,8 @@ void strain_rates(Simulation<Dim>& sim) {
       const double compression = -L.trace();  // (1/rho) drho/dt
       if (continuity) p.column(Field::density_rate)[i] = p.column(Field::density)[i] * compression;
       if (!material.solid()) return;
-      double shear = material.elastic->shear_modulus, distension_rate = 0;
+      double shear = variable_shear ? p.column(Field::shear_modulus)[i] : material.elastic->shear_modulus;
+      double distension_rate = 0;
       if (material.porosity) {
         // S = S_s/alpha, and the solid sees the share f of the strain rate, with f = 1 + (rho/alpha) d(alpha)/d(rho):
         // dS/dt = f 2G e'/alpha + (W S - S W) - S (d(alpha)/dt)/alpha   [Jutzi, Benz & Michel 2008, eqs 29-31]

@@ -11,6 +11,7 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
   const bool solid = any([](const Material& m) { return m.solid(); });
   const bool yields = any([](const Material& m) { return m.solid() && m.strength; });
   const bool porous = any([](const Material& m) { return m.porosity.has_value(); });
+  const bool variable_shear = any([](const Material& m) { return m.variable_shear() != nullptr; });
   const bool breaks = any(
       [](const Material& m) { return m.damage.has_value() || (m.porosity && m.porosity->crush_damage && m.solid()); });
   const bool grady_kipp = any([](const Material& m) { return m.damage.has_value(); });
@@ -40,12 +41,15 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
     add("density", {position, smoothing_length, mass}, {density, neighbour_sum, smoothing_length},
         summation_density<Dim>);
   add("equation of state", extended({density, specific_energy}, porous, {distension}),
-      extended(
-          {pressure, sound_speed}, porous,
-          solid ? std::initializer_list<Field>{distension, stress_factor} : std::initializer_list<Field>{distension}),
+      extended(extended({pressure, sound_speed}, porous,
+                        solid ? std::initializer_list<Field>{distension, stress_factor}
+                              : std::initializer_list<Field>{distension}),
+               variable_shear, {shear_modulus}),
       equation_of_state<Dim>);
   if (yields)
-    add("strength", extended({deviatoric_stress, pressure, specific_energy}, breaks, {Field::damage}),
+    add("strength",
+        extended(extended({deviatoric_stress, pressure, specific_energy}, breaks, {Field::damage}), variable_shear,
+                 {shear_modulus}),
         {deviatoric_stress, plastic_strain}, strength<Dim>);
   if (breaks)
     add("damage",
@@ -63,7 +67,8 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
       extended({acceleration, heating, neighbour_sum, approach_speed}, gradient, {velocity_gradient}), pair_rates<Dim>);
   if (driven) add("driven bodies", {acceleration, velocity, mass}, {acceleration}, driven_bodies<Dim>);
   if (continuity || solid)
-    add("strain rates", extended({velocity_gradient, density}, solid, {deviatoric_stress}),
+    add("strain rates",
+        extended(extended({velocity_gradient, density}, solid, {deviatoric_stress}), variable_shear, {shear_modulus}),
         extended(extended({}, continuity, {density_rate}), solid, {stress_rate}), strain_rates<Dim>);
   if (balsara)
     add("shear switch", {velocity_gradient, sound_speed, smoothing_length}, {Field::shear_switch},

@@ -25,7 +25,7 @@ TEST(Strength, NeverAboveYield) {
         [&](const auto& model) {
           for (int k = 0; k < 50000; ++k) {
             const double pressure = (uniform(random) < 0.5 ? -1 : 1) * magnitude(), damage = uniform(random);
-            const double yield = model.yield(pressure, damage), intact = model.yield(pressure, 0);
+            const double yield = model.yield({pressure, damage}), intact = model.yield({pressure, 0});
             ASSERT_TRUE(std::isfinite(yield) && yield >= 0) << pressure << ' ' << damage;
             ASSERT_LE(yield, intact * (1 + 1e-12)) << pressure << ' ' << damage;
             ASSERT_TRUE(model.intact_fraction(damage) >= 0 && model.intact_fraction(damage) <= 1);

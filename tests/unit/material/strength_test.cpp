@@ -12,7 +12,7 @@ constexpr double sqrt3 = std::numbers::sqrt3;
 
 TEST(Strength, VonMisesIsConstantAndWeakenedByDamage) {
   const VonMises basalt{3.5e9};
-  EXPECT_EQ(basalt.yield(-1e9, 0.5), 3.5e9);
+  EXPECT_EQ(basalt.yield({-1e9, 0.5}), 3.5e9);
   EXPECT_DOUBLE_EQ(basalt.intact_fraction(0.3), 0.7);
 }
 
@@ -25,33 +25,33 @@ TEST(Strength, DruckerPragerMatchesMohrCoulombInTriaxialCompression) {
     const double axial =
         confinement * (1 + std::sin(phi)) / (1 - std::sin(phi)) + 2 * cohesion * std::cos(phi) / (1 - std::sin(phi));
     const double pressure = (axial + 2 * confinement) / 3;
-    EXPECT_NEAR(soil.yield(pressure, 0), axial - confinement, 1e-9 * axial);
+    EXPECT_NEAR(soil.yield({pressure, 0}), axial - confinement, 1e-9 * axial);
   }
-  EXPECT_EQ(soil.yield(-1e9, 0), 0);
-  EXPECT_EQ(soil.yield(0, 1), 0);
-  EXPECT_GT(soil.yield(1e6, 1), 0);
+  EXPECT_EQ(soil.yield({-1e9, 0}), 0);
+  EXPECT_EQ(soil.yield({0, 1}), 0);
+  EXPECT_GT(soil.yield({1e6, 1}), 0);
   EXPECT_EQ(soil.intact_fraction(0.5), 1);
 }
 
 TEST(Strength, LundborgRunsFromCohesionToItsLimit) {
   const Lundborg granite{90e6, 2.0, 1.5e9};
-  EXPECT_DOUBLE_EQ(granite.yield(0, 0), sqrt3 * 90e6);
-  EXPECT_DOUBLE_EQ(granite.yield(-1e9, 0), sqrt3 * 90e6);
-  EXPECT_NEAR(granite.yield(1e16, 0), sqrt3 * 1.5e9, 1e3);
-  EXPECT_NEAR((granite.yield(1.0, 0) - granite.yield(0, 0)) / sqrt3, 2.0, 1e-6);  // initial slope mu
-  EXPECT_NEAR(granite.yield(705e6, 0) / sqrt3, 90e6 + 705e6, 1);                  // half way where mu P = Y_max - c
+  EXPECT_DOUBLE_EQ(granite.yield({0, 0}), sqrt3 * 90e6);
+  EXPECT_DOUBLE_EQ(granite.yield({-1e9, 0}), sqrt3 * 90e6);
+  EXPECT_NEAR(granite.yield({1e16, 0}), sqrt3 * 1.5e9, 1e3);
+  EXPECT_NEAR((granite.yield({1.0, 0}) - granite.yield({0, 0})) / sqrt3, 2.0, 1e-6);  // initial slope mu
+  EXPECT_NEAR(granite.yield({705e6, 0}) / sqrt3, 90e6 + 705e6, 1);                  // half way where mu P = Y_max - c
   EXPECT_DOUBLE_EQ(granite.intact_fraction(0.25), 0.75);
 }
 
 TEST(Strength, CollinsBlendsIntactAndBrokenRock) {
   const Collins rock{{90e6, 2.0, 1.5e9}, 1e6, 0.8};
-  EXPECT_DOUBLE_EQ(rock.yield(1e8, 0), rock.intact.yield(1e8, 0));
-  EXPECT_DOUBLE_EQ(rock.yield(1e7, 1), sqrt3 * (1e6 + 0.8e7));
-  EXPECT_DOUBLE_EQ(rock.yield(-0.5e6, 1), sqrt3 * 0.5e6);
-  EXPECT_EQ(rock.yield(-1e6, 1), 0);
-  EXPECT_EQ(rock.yield(-1e9, 1), 0);
-  EXPECT_DOUBLE_EQ(rock.yield(1e11, 1), rock.intact.yield(1e11, 0));  // friction never beats intact rock
-  EXPECT_NEAR(rock.yield(1e7, 0.25), 0.75 * rock.yield(1e7, 0) + 0.25 * rock.yield(1e7, 1), 1e-6);
+  EXPECT_DOUBLE_EQ(rock.yield({1e8, 0}), rock.intact.yield({1e8, 0}));
+  EXPECT_DOUBLE_EQ(rock.yield({1e7, 1}), sqrt3 * (1e6 + 0.8e7));
+  EXPECT_DOUBLE_EQ(rock.yield({-0.5e6, 1}), sqrt3 * 0.5e6);
+  EXPECT_EQ(rock.yield({-1e6, 1}), 0);
+  EXPECT_EQ(rock.yield({-1e9, 1}), 0);
+  EXPECT_DOUBLE_EQ(rock.yield({1e11, 1}), rock.intact.yield({1e11, 0}));  // friction never beats intact rock
+  EXPECT_NEAR(rock.yield({1e7, 0.25}), 0.75 * rock.yield({1e7, 0}) + 0.25 * rock.yield({1e7, 1}), 1e-6);
   EXPECT_EQ(rock.intact_fraction(1), 1);
 }
 
