@@ -194,11 +194,12 @@ Mat<Dim> reshaped(const Mat<Dim>& metric, const Symmetric<Dim>& log_covariance, 
   Mat<Dim> shape = evolved.map([](double l) { return l; });
   if (!keep) {
     const Mat<Dim> change = -matrix_of<Dim>(log_covariance) - shape;
-    const double norm =
-        Eigen::SelfAdjointEigenSolver<Mat<Dim>>(change, Eigen::EigenvaluesOnly).eigenvalues().cwiseAbs().maxCoeff();
-    const double allowed = 2 * std::log(limits.largest_change);
-    actions.change = norm > allowed;
-    shape += (actions.change ? allowed / norm : 1.0) * change;
+    const Eigen::SelfAdjointEigenSolver<Mat<Dim>> change_solver(change, Eigen::EigenvaluesOnly);
+    const double wanted = 0.5 * change_solver.eigenvalues().cwiseAbs().maxCoeff();  // of an axis of H
+    const double allowed = std::log(limits.largest_change);
+    actions.change = wanted > allowed;
+    actions.moved = std::min(wanted, allowed);
+    shape += (actions.change ? allowed / wanted : 1.0) * change;
   }
   const Eigen::SelfAdjointEigenSolver<Mat<Dim>> solver(shape);
   Vec<Dim> logs = solver.eigenvalues();

@@ -71,8 +71,9 @@ struct ShapeLimits {
   int fewest_neighbours;      ///< below this the evolved shape stays
 };
 
-/// Which limits acted.
+/// What a new shape came to, and which limits acted.
 struct ShapeActions {
+  double moved = 0;     ///< largest |logarithm| of the factor of an axis
   bool kept = false;    ///< too few neighbours: no new shape
   bool change = false;  ///< moved only part of the way
   bool aspect = false;  ///< held at the largest aspect

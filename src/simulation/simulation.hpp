@@ -10,6 +10,7 @@
 #include "particles/pair_lists.hpp"
 #include "particles/particles.hpp"
 #include "scene/scene.hpp"
+#include "schemes/ideal_h.hpp"
 #include "schemes/pair_pass.hpp"
 #include "schemes/support_size.hpp"
 #include "simulation/diagnostics.hpp"
@@ -52,6 +53,33 @@ class Observer {
   virtual void observe(Simulation<Dim>& sim, bool last) = 0;
 };
 
+/// How often a particle voted on the shape of its H during a run, and how often a limit acted on the result.
+struct ShapeReport {
+  std::int64_t votes = 0;           ///< particles times votes
+  std::int64_t few_neighbours = 0;  ///< kept the shape that moved with the flow
+  std::int64_t limited_change = 0;  ///< moved only part of the way
+  std::int64_t largest_aspect = 0;  ///< held at numerics.largest_aspect
+  ShapeReport& operator+=(const ShapeReport& o) {
+    votes += o.votes;
+    few_neighbours += o.few_neighbours;
+    limited_change += o.limited_change;
+    largest_aspect += o.largest_aspect;
+    return *this;
+  }
+};
+
+/// Particles, then images, while they vote.
+template <int Dim>
+struct ShapeScratch {
+  struct Place {
+    Vec<Dim> x;
+    std::int32_t body;
+    int neighbours = 0;
+  };
+  std::vector<Place> places;
+  std::vector<ShapeVote<Dim>> votes;
+};
+
 template <int Dim>
 struct Simulation {
   Scene scene;
@@ -64,7 +92,9 @@ struct Simulation {
   std::unique_ptr<SupportSize> support;
   std::vector<double> intact;        ///< share of the deviator that damage leaves; empty without damage
   std::vector<std::uint32_t> order;  ///< scratch of the spatial sort
-  double lists_built_at = 0;         ///< s
+  ShapeScratch<Dim> shape_scratch;
+  ShapeReport shape_report;
+  double lists_built_at = 0;  ///< s
   std::int64_t list_builds = 0, sorts = 0;
   std::int64_t unconverged = 0;  ///< particle-steps in which the distension solver failed (plain Newton may)
   Clock clock;

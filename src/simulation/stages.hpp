@@ -53,6 +53,12 @@ void strain_rates(Simulation<Dim>& sim);
 template <int Dim>
 void shear_switch(Simulation<Dim>& sim);
 
+// --- shape_stage.cpp -------------------------------------------------------------------------------------------------
+/// Shapes of H by the votes of the neighbours, every numerics.shape_interval steps. At the start votes and sizes are
+/// repeated until they settle.
+template <int Dim>
+void vote_shapes(Simulation<Dim>& sim);
+
 // --- neighbour_stage.cpp ---------------------------------------------------------------------------------------------
 /// Renews the pair lists if somebody has left its margin, and the order of the particles if it has worn out.
 template <int Dim>
