@@ -40,6 +40,27 @@ TEST(SupportSize, Psi0OfTheCubicSplineIsTheExactLatticeSum) {
   }
 }
 
+TEST(SupportSize, Psi0OfEveryKernelIsTheExactLatticeSum) {
+  // At n_h = 1.3, 1.51, 2.01, 3.01, with the profiles as in kernels.hpp; computed independently.
+  struct Row {
+    Kernel kernel;
+    int dim;
+    double psi0[4];
+  };
+  for (const Row& row : {Row{Kernel::cubic_spline, 2, {2.74055, 3.22166, 4.31983, 6.51569}},
+                         Row{Kernel::cubic_spline, 3, {2.65102, 3.10796, 4.14001, 6.21060}},
+                         Row{Kernel::quintic_spline, 2, {24.79626, 28.99429, 38.84506, 58.36366}},
+                         Row{Kernel::quintic_spline, 3, {12.29440, 14.31427, 19.08519, 28.59867}},
+                         Row{Kernel::wendland_c2, 2, {2.49321, 2.97417, 4.04663, 6.13004}},
+                         Row{Kernel::wendland_c2, 3, {2.45130, 2.88177, 3.86353, 5.80278}},
+                         Row{Kernel::wendland_c4, 2, {2.30304, 2.76641, 3.80170, 5.77591}},
+                         Row{Kernel::wendland_c4, 3, {2.23156, 2.63143, 3.54774, 5.33529}}}) {
+    const SupportSize size(row.kernel, row.dim, 2);
+    constexpr double nodes_per_h[] = {1.3, 1.51, 2.01, 3.01};
+    for (int k = 0; k < 4; ++k) EXPECT_NEAR(size.psi0(nodes_per_h[k]), row.psi0[k], 6e-6);
+  }
+}
+
 TEST(SupportSize, GrowthFollowsOwen2010) {
   const SupportSize size(Kernel::wendland_c2, 3, 1.5);
   const auto growth_at = [&](double nodes) { return size.growth(std::pow(size.psi0(nodes), 3)); };

@@ -1,5 +1,6 @@
 #pragma once
-/// Periodic sets of nodes with a known best H, and the iteration of votes on them without any dynamics.
+/// Sets of nodes with a known best H, and the iteration of votes on them without any dynamics.
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
@@ -59,12 +60,9 @@ struct VoteSettings {
   double largest_aspect = 100;
   double largest_change = 2;
   int fewest_neighbours = 0;
-  double share = 1;
-  bool resize = true;
-  bool average = true;
 };
 
-/// Calls f(x_j - x_i) for every other node and period within `radius` of node i.
+/// Calls f(j, x_j - x_i) for every other node, in this period and those next to it.
 template <int Dim, class F>
 void for_neighbours(const NodeSet<Dim>& set, std::size_t i, F&& f) {
   const Mat<Dim> to_cell = set.box.inverse();
@@ -75,7 +73,6 @@ void for_neighbours(const NodeSet<Dim>& set, std::size_t i, F&& f) {
     for (int a = 0, rest = k; a < Dim; ++a, rest /= 3) shift[a] = rest % 3 - 1;
     shifts[k] = set.box * shift;
   }
-  // Within the support |x|^2 < support^2 / (smallest eigenvalue of G): left to FirstShell.
   for (std::size_t j = 0; j < set.x.size(); ++j) {
     Vec<Dim> cell = to_cell * (set.x[j] - set.x[i]);
     for (int a = 0; a < Dim; ++a) cell[a] -= std::round(cell[a]);
@@ -85,48 +82,54 @@ void for_neighbours(const NodeSet<Dim>& set, std::size_t i, F&& f) {
   }
 }
 
-/// One round of votes and, if asked, sizes. Returns which limits acted.
+/// One round of votes and sizes with kernel K. Returns which limits acted on each node.
+template <class K, int Dim>
+std::vector<ShapeActions> vote_once(NodeSet<Dim>& set, const VoteSettings& s, const SupportSize& size) {
+  const std::size_t n = set.x.size();
+  struct Near {
+    std::size_t j;
+    double eta;
+  };
+  std::vector<std::vector<Near>> near(n);
+  std::vector<ShapeVote<Dim>> votes(n);
+  std::vector<int> neighbours(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    FirstShell<Dim> shell(set.metric[i], s.nodes_per_h, K::support);
+    for_neighbours(set, i, [&](std::size_t j, const Vec<Dim>& x) {
+      const double eta2 = x.dot(set.metric[i] * x);
+      if (!(eta2 < K::support * K::support)) return;
+      near[i].push_back({j, std::sqrt(eta2)});
+      shell.add(x);
+    });
+    votes[i] = shell.vote(s.reach);
+    neighbours[i] = shell.neighbours();
+  }
+  std::vector<ShapeActions> actions(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    VoteMean<Dim> mean;
+    mean.add(K::value(0.0), votes[i]);
+    double moment = 0;
+    for (const Near& m : near[i]) {
+      mean.add(K::value(m.eta), votes[m.j]);
+      moment -= m.eta * K::slope_over_q(m.eta, 1 / m.eta);
+    }
+    const ShapeLimits limits{s.largest_aspect, s.largest_change, s.fewest_neighbours};
+    const bool keep = mean.empty() || neighbours[i] < limits.fewest_neighbours;
+    set.metric[i] = reshaped<Dim>(set.metric[i], mean.shrunk(), keep, limits, actions[i]);
+    set.metric[i] /= std::pow(size.growth(moment), 2);
+  }
+  return actions;
+}
+
+/// Several rounds. Returns which limits acted in the last.
 template <int Dim>
-std::vector<ShapeActions> vote_once(NodeSet<Dim>& set, const VoteSettings& s) {
-  return with_kernel(s.kernel, [&](auto kernel) {
-    using K = decltype(kernel);
-    SupportSize size(s.kernel, Dim, s.nodes_per_h);
-    const std::size_t n = set.x.size();
-    struct Near {
-      std::size_t j;
-      double eta;
-    };
-    std::vector<std::vector<Near>> near(n);
-    std::vector<ShapeVote<Dim>> votes(n);
-    std::vector<int> neighbours(n);
-    for (std::size_t i = 0; i < n; ++i) {
-      FirstShell<Dim> shell(set.metric[i], s.nodes_per_h, K::support);
-      for_neighbours(set, i, [&](std::size_t j, const Vec<Dim>& x) {
-        const double eta2 = x.dot(set.metric[i] * x);
-        if (!(eta2 < K::support * K::support)) return;
-        near[i].push_back({j, std::sqrt(eta2)});
-        shell.add(x);
-      });
-      votes[i] = shell.vote(s.reach);
-      neighbours[i] = shell.neighbours();
-    }
-    std::vector<ShapeActions> actions(n);
-    for (std::size_t i = 0; i < n; ++i) {
-      VoteMean<Dim> mean;
-      mean.add(K::value(0.0), votes[i]);
-      double moment = 0;
-      for (const Near& m : near[i]) {
-        if (s.average) mean.add(K::value(m.eta), votes[m.j]);
-        moment -= m.eta * K::slope_over_q(m.eta, 1 / m.eta);
-      }
-      const ShapeLimits limits{s.largest_aspect, s.largest_change, s.fewest_neighbours};
-      const bool keep = mean.empty() || neighbours[i] < limits.fewest_neighbours;
-      Symmetric<Dim> target = mean.shrunk();
-      set.metric[i] = reshaped<Dim>(set.metric[i], target, keep, limits, actions[i]);
-      if (s.resize) set.metric[i] /= std::pow(size.growth(moment), 2);
-    }
-    return actions;
+std::vector<ShapeActions> vote(NodeSet<Dim>& set, const VoteSettings& settings, int rounds = 1) {
+  const SupportSize size(settings.kernel, Dim, settings.nodes_per_h);
+  std::vector<ShapeActions> actions;
+  with_kernel(settings.kernel, [&](auto kernel) {
+    for (int k = 0; k < rounds; ++k) actions = vote_once<decltype(kernel)>(set, settings, size);
   });
+  return actions;
 }
 
 struct Spread {
