@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "base/parallel.hpp"
+#include "render/footprint.hpp"
 
 namespace ejecta {
 
@@ -46,11 +47,18 @@ SquareTable column_table(const KernelShape& kernel) {
           }};
 }
 
-/// Footprint of one particle: weight amplitude * table((distance^2 + depth2) / h^2) at pixels within `radius`.
+/// Footprint of one particle: weight amplitude * table(q^2), q^2 = least + uu du^2 + 2 uv du dv + vv dv^2, at pixels
+/// within `reach` of (u, v).
 struct Splat {
   std::size_t particle;
-  double u, v, depth2, inverse_h2, amplitude, radius;
+  double u, v, least, uu, uv, vv, amplitude, reach_u, reach_v;
 };
+
+Splat splat_of(std::size_t particle, double u, double v, const Footprint& print, double amplitude, double support) {
+  const Vec<2> reach = print.reach(support);
+  return {particle,         u + print.centre[0], v + print.centre[1], print.least, print.form(0, 0),
+          print.form(0, 1), print.form(1, 1),    amplitude,           reach[0],    reach[1]};
+}
 
 /// First and one past the last pixel whose centre lies within `radius` of x; empty if none.
 std::array<int, 2> covered(double x, double radius, double first, double pixel, int pixels) {
@@ -67,10 +75,11 @@ void for_each_pixel(const std::vector<Splat>& splats, const PixelGrid& grid, con
                     Paint&& paint) {
   constexpr int band = 8;
   const std::size_t bands = static_cast<std::size_t>((grid.height + band - 1) / band);
-  const auto rows_of = [&](const Splat& s) { return covered(s.v, s.radius, grid.first[1], grid.pixel, grid.height); };
+  const auto rows_of = [&](const Splat& s) { return covered(s.v, s.reach_v, grid.first[1], grid.pixel, grid.height); };
   std::vector<std::size_t> start(bands + 1, 0);
   const auto each_band = [&](std::size_t k, auto&& visit) {
     const auto [low, high] = rows_of(splats[k]);
+    if (!(splats[k].amplitude > 0)) return;  // NaN or a broken metric of a failing run
     for (int b = low / band; low < high && b <= (high - 1) / band; ++b) visit(static_cast<std::size_t>(b));
   };
   for (std::size_t k = 0; k < splats.size(); ++k) each_band(k, [&](std::size_t b) { ++start[b + 1]; });
@@ -82,16 +91,16 @@ void for_each_pixel(const std::vector<Splat>& splats, const PixelGrid& grid, con
     for (std::size_t entry = start[b]; entry < start[b + 1]; ++entry) {
       const Splat& s = splats[in_band[entry]];
       const auto [low, high] = rows_of(s);
-      const auto [left, right] = covered(s.u, s.radius, grid.first[0], grid.pixel, grid.width);
+      const auto [left, right] = covered(s.u, s.reach_u, grid.first[0], grid.pixel, grid.width);
       const int top = std::min(high, static_cast<int>(b + 1) * band);
       for (int j = std::max(low, static_cast<int>(b) * band); j < top; ++j) {
         const double dv = grid.first[1] + j * grid.pixel - s.v;
         for (int i = left; i < right; ++i) {
           const double du = grid.first[0] + i * grid.pixel - s.u;
-          const double q2 = (du * du + dv * dv + s.depth2) * s.inverse_h2;
+          const double q2 = s.least + s.uu * (du * du) + 2 * s.uv * (du * dv) + s.vv * (dv * dv);
           if (q2 < support * support)
             paint(s, static_cast<std::size_t>(j) * static_cast<std::size_t>(grid.width) + static_cast<std::size_t>(i),
-                  s.amplitude * table(q2));
+                  s.amplitude * table(std::max(0.0, q2)));
         }
       }
     }
@@ -103,6 +112,17 @@ std::size_t pixels(const PixelGrid& grid) {
 }
 
 }  // namespace
+
+template <int Dim>
+Mat<Dim> ParticleView::metric(std::size_t i) const {
+  const double h = smoothing_length[i];
+  if (smoothing_metric[0].empty()) return Mat<Dim>::Identity() / (h * h);
+  Symmetric<Dim> g;
+  for (int k = 0; k < symmetric_size<Dim>; ++k) g[k] = smoothing_metric[static_cast<std::size_t>(k)][i];
+  return matrix_of<Dim>(g);
+}
+template Mat<2> ParticleView::metric<2>(std::size_t) const;
+template Mat<3> ParticleView::metric<3>(std::size_t) const;
 
 PixelGrid centred_grid(int width, int height, std::array<double, 2> centre, double visible_width) {
   const double pixel = visible_width / width;
@@ -117,16 +137,20 @@ const SampledImage::Field& SampledImage::field(std::string_view name) const {
 
 SampledImage sample_slice(const ParticleView& particles, std::span<const FieldView> fields, const KernelShape& kernel,
                           const PixelGrid& grid, double plane_y, double least_filling) {
-  const bool flat = particles.dimension() == 2;
   const auto& [x, y, z] = particles.position;
   std::vector<Splat> splats;
   for (std::size_t i = 0; i < particles.size(); ++i) {
-    const double h = particles.smoothing_length[i], depth = flat ? 0 : y[i] - plane_y;
-    const double radius2 = kernel.support * h * (kernel.support * h) - depth * depth;
-    if (!(radius2 > 0)) continue;
     const double volume = particles.mass[i] / particles.density[i];
-    splats.push_back({i, x[i], flat ? y[i] : z[i], depth * depth, 1 / (h * h), volume / (flat ? h * h : h * h * h),
-                      std::sqrt(radius2)});
+    if (particles.dimension() == 2) {
+      const Mat<2> g = particles.metric<2>(i);
+      splats.push_back(
+          splat_of(i, x[i], y[i], {Vec<2>::Zero(), 0, g}, volume * std::sqrt(g.determinant()), kernel.support));
+    } else {
+      const Mat<3> g = particles.metric<3>(i);
+      const Footprint print = section(g, plane_y - y[i]);
+      if (print.least < kernel.support * kernel.support)
+        splats.push_back(splat_of(i, x[i], z[i], print, volume * std::sqrt(g.determinant()), kernel.support));
+    }
   }
 
   SampledImage image{grid, {}};
@@ -157,16 +181,12 @@ SampledImage sample_slice(const ParticleView& particles, std::span<const FieldVi
 
 SampledImage sample_column_density(const ParticleView& particles, const KernelShape& kernel, const PixelGrid& grid) {
   const bool flat = particles.dimension() == 2;
-  std::vector<Splat> splats(particles.size());
+  std::vector<Splat> splats;
   for (std::size_t i = 0; i < particles.size(); ++i) {
-    const double h = std::max(particles.smoothing_length[i], grid.pixel);
-    splats[i] = {i,
-                 particles.position[0][i],
-                 particles.position[flat ? 1 : 2][i],
-                 0,
-                 1 / (h * h),
-                 particles.mass[i] / (h * h),
-                 kernel.support * h};
+    Footprint print = flat ? Footprint{Vec<2>::Zero(), 0, particles.metric<2>(i)} : projection(particles.metric<3>(i));
+    print.form = widened(print.form, grid.pixel);
+    splats.push_back(splat_of(i, particles.position[0][i], particles.position[flat ? 1 : 2][i], print,
+                              particles.mass[i] * std::sqrt(print.form.determinant()), kernel.support));
   }
   SampledImage image{grid, {{"column_density", flat ? "kg/m^3" : "kg/m^2", {std::vector<double>(pixels(grid), 0.0)}}}};
   std::vector<double>& sum = image.fields[0].components[0];

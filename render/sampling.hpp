@@ -7,12 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "base/types.hpp"
 #include "particles/channel.hpp"
 
 namespace ejecta {
 
-/// Shape of the smoothing kernel: W(r, h) = value(r/h) / h^Dim, normalised to volume integral 1, zero from `support`
-/// on.
+/// Shape of the smoothing kernel: W(x) = det(H) value(|H x|), normalised to volume integral 1, zero from `support` on.
+/// H is the inverse of the smoothing length, or the tensor of ASPH.
 struct KernelShape {
   double support;
   std::function<double(double)> value;
@@ -22,9 +23,14 @@ struct KernelShape {
 struct ParticleView {
   std::array<std::span<const double>, 3> position;
   std::span<const double> mass, density, smoothing_length;
+  /// G = H H [1/m^2] in the order of Symmetric (3 or 6 columns). All empty: H is round, 1 / smoothing_length.
+  std::array<std::span<const double>, 6> smoothing_metric;
 
   std::size_t size() const { return mass.size(); }
   int dimension() const { return position[2].empty() ? 2 : 3; }
+  /// G of one particle.
+  template <int Dim>
+  Mat<Dim> metric(std::size_t i) const;
 };
 
 /// Square pixels of the picture plane. In 3D its axes are x (horizontal) and z (vertical), in plane strain x and y.
