@@ -205,11 +205,7 @@ Channel image_channel(const SampledImage& image, std::string name) {
   channel.extent = {image.grid.width, image.grid.height, 1};
   channel.origin = {image.grid.first[0], image.grid.first[1], 0};
   channel.spacing = {image.grid.pixel, image.grid.pixel, image.grid.pixel};
-  for (const SampledImage::Field& f : image.fields) {
-    FieldView view{f.name, f.unit, {}};
-    for (const std::vector<double>& component : f.components) view.components.emplace_back(component);
-    channel.fields.push_back(std::move(view));
-  }
+  for (const SampledImage::Field& f : image.fields) channel.fields.push_back(f.view());
   return channel;
 }
 

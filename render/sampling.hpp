@@ -44,10 +44,7 @@ PixelGrid centred_grid(int width, int height, std::array<double, 2> centre, doub
 
 /// Fields on a pixel grid; rows run upwards, NaN where there is no matter.
 struct SampledImage {
-  struct Field {
-    std::string name, unit;
-    std::vector<std::vector<double>> components;  ///< width * height values each, x fastest
-  };
+  using Field = OwnedField;  ///< width * height values a component, x fastest
   PixelGrid grid;
   std::vector<Field> fields;
 

@@ -39,14 +39,6 @@ std::vector<Field> slice_fields(const Particles<Dim>& p) {
   return fields;
 }
 
-template <int Dim>
-FieldView view_of(const Particles<Dim>& p, Field field) {
-  const FieldInfo& f = info(field);
-  FieldView view{std::string(f.name), std::string(f.unit), {}};
-  for (int k = 0; k < components(f.shape, Dim); ++k) view.components.push_back(p.column(field, k));
-  return view;
-}
-
 ColourMap map_of(std::string_view field) {
   if (field == "pressure") return ColourMap::cool_warm;
   if (field == "damage") return ColourMap::inferno;
@@ -89,23 +81,6 @@ std::map<std::string, ColourRange> default_ranges(const Scene& scene, const std:
 }
 
 template <int Dim>
-FragmentInput fragment_input(const Particles<Dim>& p) {
-  FragmentInput in;
-  for (int a = 0; a < Dim; ++a) {
-    in.position[static_cast<std::size_t>(a)] = p.column(Field::position, a);
-    in.velocity[static_cast<std::size_t>(a)] = p.column(Field::velocity, a);
-  }
-  in.mass = p.column(Field::mass);
-  in.density = p.column(Field::density);
-  if (p.has(Field::damage)) in.damage = p.column(Field::damage);
-  if (p.has(Field::distension)) in.distension = p.column(Field::distension);
-  in.id = p.label(Label::id);
-  in.body = p.label(Label::body);
-  in.material = p.label(Label::material);
-  return in;
-}
-
-template <int Dim>
 Frames<Dim>::Frames(const Simulation<Dim>& sim, std::filesystem::path folder, bool catalyst)
     : folder_(std::move(folder)), view_(choose_view(sim.scene)), ranges_(default_ranges(sim.scene, sim.materials)) {
   const InSitu& insitu = sim.scene.insitu;
@@ -118,7 +93,6 @@ Frames<Dim>::Frames(const Simulation<Dim>& sim, std::filesystem::path folder, bo
   };
   grid_ = grid_of(static_cast<int>(slice_fields(sim.particles).size()));
   column_grid_ = grid_of(1);
-  if (Dim == 2) zeros_.assign(sim.particles.size(), 0.0);
   if (!catalyst) return;
   PipelineSettings settings;
   settings.run_folder = std::filesystem::absolute(folder_).string();
@@ -209,19 +183,15 @@ double insitu_seconds(const StageTimers& timers) {
 
 template <int Dim>
 void Frames<Dim>::find_fragments(Simulation<Dim>& sim) {
-  fragments_ = tracker_.update(fragment_input(sim.particles), sim.scene.fragments);
+  fragments_ = tracker_.update(fragment_input(sim.particles, sim.scene), sim.scene.fragments);
 }
 
 template <int Dim>
 void Frames<Dim>::sample(const Simulation<Dim>& sim) {
   const Particles<Dim>& p = sim.particles;
-  ParticleView view;
-  for (int a = 0; a < Dim; ++a) view.position[static_cast<std::size_t>(a)] = p.column(Field::position, a);
-  view.mass = p.column(Field::mass);
-  view.density = p.column(Field::density);
-  view.smoothing_length = p.column(Field::smoothing_length);
+  const ParticleView view = particle_view(p);
   std::vector<FieldView> fields;
-  for (Field f : slice_fields(p)) fields.push_back(view_of(p, f));
+  for (Field f : slice_fields(p)) fields.push_back(field_view(p, f));
   const KernelShape kernel = with_kernel(sim.scene.numerics.kernel, [](auto k) {
     using K = decltype(k);
     return KernelShape{K::support, [](double q) { return K::template norm<Dim> * K::value(q); }};
@@ -247,63 +217,8 @@ void Frames<Dim>::paint(const Simulation<Dim>& sim, std::string_view name, const
 }
 
 template <int Dim>
-std::vector<Channel> Frames<Dim>::channels(const Simulation<Dim>& sim) {
-  const Particles<Dim>& p = sim.particles;
-  Channel particles;
-  particles.name = "particles";
-  particles.count = p.size();
-  for (int a = 0; a < Dim; ++a) particles.position[static_cast<std::size_t>(a)] = p.column(Field::position, a);
-  if (Dim == 2) particles.position[2] = zeros_;
-  for (Field f : p.fields())
-    if (f != Field::position && info(f).role != Role::rate) particles.fields.push_back(view_of(p, f));
-  particles.indices = {
-      {"id", p.label(Label::id)}, {"body", p.label(Label::body)}, {"material", p.label(Label::material)}};
-  if (fragments_) particles.indices.push_back({"fragment_number", fragments_->number});
-
-  Channel slice = image_channel(slice_, "slice");
-  if (Dim == 3) {  // the picture plane is x-z in space
-    slice.extent = {slice.extent[0], 1, slice.extent[1]};
-    slice.origin = {slice.origin[0], view_.center[1], slice.origin[1]};
-    slice.spacing = {slice.spacing[0], 1, slice.spacing[1]};
-  }
-  std::vector<Channel> all{particles, slice};
-  if (fragments_) all.push_back(fragment_channel());
-  return all;
-}
-
-template <int Dim>
-Channel Frames<Dim>::fragment_channel() {
-  enum { x, y, z, mass, vx, vy, vz, size, mean_damage, mean_distension };
-  for (auto& column : fragment_columns_) column.clear();
-  fragment_numbers_.clear();
-  for (const Fragment& f : fragments_->fragments) {
-    for (int a = 0; a < 3; ++a) {
-      fragment_columns_[static_cast<std::size_t>(x + a)].push_back(f.centre[a]);
-      fragment_columns_[static_cast<std::size_t>(vx + a)].push_back(f.velocity[a]);
-    }
-    fragment_columns_[mass].push_back(f.carried.mass);
-    fragment_columns_[size].push_back(f.semi_axes[0]);
-    fragment_columns_[mean_damage].push_back(f.mean_damage);
-    fragment_columns_[mean_distension].push_back(f.mean_distension);
-    fragment_numbers_.push_back(f.number);
-  }
-  const auto& c = fragment_columns_;
-  Channel channel;
-  channel.name = "fragments";
-  channel.count = fragment_numbers_.size();
-  channel.position = {c[x], c[y], c[z]};
-  channel.fields = {{"mass", Dim == 3 ? "kg" : "kg/m", {c[mass]}},
-                    {"velocity", "m/s", {c[vx], c[vy], c[vz]}},
-                    {"longest_semi_axis", "m", {c[size]}},
-                    {"damage", "1", {c[mean_damage]}},
-                    {"distension", "1", {c[mean_distension]}}};
-  channel.indices = {{"number", fragment_numbers_}};
-  return channel;
-}
-
-template <int Dim>
 void Frames<Dim>::draw_with_catalyst(Simulation<Dim>& sim) {
-  const std::vector<Channel> all = channels(sim);
+  const std::vector<Channel> all = channels_.update(sim, slice_, view_.center[1], fragments_);
   const FrameReport report = bridge_->execute(sim.clock.step, sim.clock.time, all);
   images_ += static_cast<int>(report.images.size());
   for (const std::string& warning : report.warnings) {
@@ -378,8 +293,6 @@ void Frames<Dim>::write_compaction_tables(const Simulation<Dim>& sim) const {
   }
 }
 
-template FragmentInput fragment_input<2>(const Particles<2>&);
-template FragmentInput fragment_input<3>(const Particles<3>&);
 template class Frames<2>;
 template class Frames<3>;
 

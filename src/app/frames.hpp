@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "app/channels.hpp"
 #include "insitu/catalyst_bridge.hpp"
 #include "insitu/image_index.hpp"
 #include "render/image.hpp"
@@ -27,10 +28,6 @@ std::map<std::string, ColourRange> default_ranges(const Scene& scene, const std:
 /// Wall time booked for in-situ work [s].
 double insitu_seconds(const StageTimers& timers);
 
-/// The columns of a simulation as fragments see them.
-template <int Dim>
-FragmentInput fragment_input(const Particles<Dim>& particles);
-
 template <int Dim>
 class Frames final : public Observer<Dim> {
  public:
@@ -53,8 +50,6 @@ class Frames final : public Observer<Dim> {
   void sample(const Simulation<Dim>& sim);
   void draw_with_catalyst(Simulation<Dim>& sim);
   void draw_without_gl(const Simulation<Dim>& sim);
-  std::vector<Channel> channels(const Simulation<Dim>& sim);
-  Channel fragment_channel();
   void paint(const Simulation<Dim>& sim, std::string_view name, const PixelGrid& grid, std::span<const Panel> panels);
   void warn(std::string text);
   void govern(const Simulation<Dim>& sim);
@@ -70,15 +65,13 @@ class Frames final : public Observer<Dim> {
   FragmentTracker tracker_;
   std::optional<FragmentTable> fragments_;
   SampledImage slice_;
-  std::vector<double> zeros_;
-  std::array<std::vector<double>, 10> fragment_columns_;
-  std::vector<std::int32_t> fragment_numbers_;
+  FrameChannels<Dim> channels_;
   std::vector<double> compaction_pressure_, compaction_distension_;
   std::vector<std::int32_t> compaction_loading_;
   std::vector<std::string> warnings_;
   std::optional<ImageIndex> index_;  ///< of the images drawn without Catalyst
   std::int64_t last_drawn_ = -1;
-  double next_ = 0;  ///< time of the next frame, drawn or passed over [s]
+  double next_ = 0;                              ///< time of the next frame, drawn or passed over [s]
   double insitu_before_ = 0, steps_before_ = 0;  ///< wall time of either when the governor began to judge [s]
   int frame_ = 0, drawn_ = 0, images_ = 0;
   int stride_ = 1, passed_over_ = 0;  ///< the governor draws every stride-th frame only

@@ -112,7 +112,8 @@ void conclude(Simulation<Dim>& sim, const Frames<Dim>& frames, const Job& job, i
     const FragmentContext context = fragment_context(sim);
     write_fragments(job.folder / "fragments.csv", *frames.fragments(), context);
     write_fragment_distribution(job.folder / "fragment_distribution.csv", *frames.fragments(), context);
-    for (const FragmentSensitivity& s : fragment_sensitivity(fragment_input(sim.particles), sim.scene.fragments))
+    for (const FragmentSensitivity& s :
+         fragment_sensitivity(fragment_input(sim.particles, sim.scene), sim.scene.fragments))
       spdlog::info("fragments at linking length {:.2f}: {}, largest {:.2f} %, dust {:.1f} % of all mass",
                    s.linking_length, s.fragments, 100 * s.largest_mass_fraction, 100 * s.dust_mass_fraction);
   }

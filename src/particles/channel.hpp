@@ -15,6 +15,13 @@ struct FieldView {
   std::string unit;                                 ///< SI symbol, "1" if dimensionless
   std::vector<std::span<const double>> components;  ///< 1, 2, 3, ... spans of equal length
 };
+/// A field that owns its columns.
+struct OwnedField {
+  std::string name, unit;
+  std::vector<std::vector<double>> components;
+
+  FieldView view() const { return {name, unit, {components.begin(), components.end()}}; }
+};
 struct IndexView {
   std::string name;
   std::span<const std::int32_t> values;
@@ -23,7 +30,7 @@ struct IndexView {
 enum class ChannelKind { points, image };
 
 struct Channel {
-  std::string name;  ///< particles | slice | fragments
+  std::string name;  ///< particles | slice | ellipsoids | fragments
   ChannelKind kind = ChannelKind::points;
   std::size_t count = 0;                            ///< points, or pixels of the image
   std::array<std::span<const double>, 3> position;  ///< points: x, y, z [m] (z: zeros in 2D)

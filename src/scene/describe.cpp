@@ -68,7 +68,8 @@ void describe(Describer& d, Boundary& b) {
 void describe(Describer& d, InSitu& i) {
   d.flag("enabled", i.enabled, "images and statistics while the run goes on");
   d.integer("frames", i.frames, at_least(2), "equally spaced in simulated time, first and last included");
-  d.texts("pipelines", i.pipelines, "Catalyst scripts beside the scene; none: the default set of the dimension");
+  d.texts("pipelines", i.pipelines,
+          "Catalyst scripts beside the scene or shipped (ellipses.py, damage.py), and \"default\"; none: default");
   d.flag("column_density", i.column_density, "also draw the mass per area seen along y (view `column`)");
   d.choice("on_error", i.on_error, "what a failing pipeline does to the run");
   d.number("max_share", i.max_share, "1", {.min = 0, .max = 1, .open_min = true},
@@ -81,7 +82,9 @@ void describe(Describer& d, InSitu& i) {
 
 void describe(Describer& d, FragmentSettings& f) {
   d.flag("enabled", f.enabled, "find connected pieces during the run");
-  d.number("linking_length", f.linking_length, "1", positive, "friends are nearer than this many mean particle sizes");
+  d.choice("link", f.link, "unit of linking_length: mean particle size, or node spacing of H (auto: that in ASPH)");
+  d.number("linking_length", f.linking_length, "1", positive,
+           "friends are nearer than this many mean particle sizes, or node spacings of H of either");
   d.number("damage_threshold", f.damage_threshold, "1", at_least(0),
            "particles damaged beyond this are dust; above 1 damage cuts no links");
   d.integer("min_particles", f.min_particles, at_least(1), "smaller groups are dust");

@@ -19,6 +19,7 @@ constexpr auto enum_names(DistensionSolver) {
 }
 constexpr auto enum_names(Lattice) { return std::to_array<std::string_view>({"cubic", "hexagonal"}); }
 constexpr auto enum_names(OnError) { return std::to_array<std::string_view>({"continue", "abort"}); }
+constexpr auto enum_names(FragmentLink) { return std::to_array<std::string_view>({"auto", "spacing", "support"}); }
 
 /// The word for one choice: name_of(Kernel::wendland_c2) is "wendland_c2".
 template <class Enum>

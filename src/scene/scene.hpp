@@ -25,6 +25,7 @@ enum class BoundaryKind { open, periodic, reflecting };
 enum class DistensionSolver { safe_newton, bisection, newton };
 enum class Lattice { cubic, hexagonal };
 enum class OnError { continue_run, abort };
+enum class FragmentLink { automatic, spacing, support };
 
 /// Formulas that replace the uniform values of a body at the start (formula.hpp says of what). Empty: none.
 struct Profile {
@@ -89,7 +90,7 @@ struct ColourRange {
 struct InSitu {
   bool enabled = true;
   int frames = 60;                     ///< equally spaced in simulated time, first and last included
-  std::vector<std::string> pipelines;  ///< Catalyst V2 scripts (paths); empty: the default set of the dimension
+  std::vector<std::string> pipelines;  ///< Catalyst V2 scripts (paths) or "default"; empty: default
   bool column_density = false;         ///< also draw the mass per area seen along y
   OnError on_error = OnError::continue_run;
   double max_share = 0.15;  ///< cadence is stretched when in-situ work exceeds this share of wall time
@@ -101,7 +102,9 @@ struct InSitu {
 
 struct FragmentSettings {
   bool enabled = false;
-  double linking_length = 1.4;     ///< in units of the mean particle size (m/rho)^(1/Dim)
+  FragmentLink link = FragmentLink::automatic;  ///< automatic: support in ASPH, else spacing
+  double linking_length =
+      1.4;  ///< spacing: in mean particle sizes (m/rho)^(1/Dim); support: in h / nodes_per_h along each axis
   double damage_threshold = 0.99;  ///< particles damaged beyond this link to nothing (dust)
   int min_particles = 8;           ///< smaller groups count as dust
 };

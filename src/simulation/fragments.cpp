@@ -3,123 +3,24 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <utility>
 
+#include "simulation/friends.hpp"
+
 namespace ejecta {
+
+double FragmentInput::particle_size(std::size_t i) const {
+  const double volume = mass[i] / density[i];
+  return dimension() == 2 ? std::sqrt(volume) : std::cbrt(volume);
+}
 
 namespace {
 
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
-  std::uint32_t root(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  /// The lower index becomes the root, so the result does not depend on the order of the calls.
-  void join(std::uint32_t i, std::uint32_t j) {
-    const std::uint32_t a = root(i), b = root(j);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
-
-/// A cell of one of the grids; `level` counts octaves of particle size.
-struct Cell {
-  int level;
-  std::array<std::int64_t, 3> index;
-};
-
-/// Particles sorted into hashed cells. Two cells may share a bucket: that only costs a distance check.
-class HashedCells {
- public:
-  HashedCells(const std::vector<std::uint32_t>& members, const std::vector<Cell>& cell_of)
-      : mask_(std::bit_ceil(members.size() + 1) - 1), start_(mask_ + 2, 0), sorted_(members.size()) {
-    for (const std::uint32_t i : members) ++start_[bucket(cell_of[i]) + 1];
-    std::partial_sum(start_.begin(), start_.end(), start_.begin());
-    std::vector<std::uint32_t> next(start_.begin(), start_.end() - 1);
-    for (const std::uint32_t i : members) sorted_[next[bucket(cell_of[i])]++] = i;
-  }
-  std::span<const std::uint32_t> at(const Cell& cell) const {
-    const std::size_t b = bucket(cell);
-    return {sorted_.data() + start_[b], start_[b + 1] - start_[b]};
-  }
-
- private:
-  std::size_t bucket(const Cell& cell) const {
-    std::uint64_t hash = static_cast<std::uint64_t>(cell.level);
-    for (const std::int64_t index : cell.index) {  // multiply and rotate by odd constants spreads neighbours apart
-      hash = (hash ^ static_cast<std::uint64_t>(index)) * 0x9E3779B97F4A7C15ull;
-      hash = std::rotl(hash, 29);
-    }
-    return static_cast<std::size_t>(hash ^ (hash >> 32)) & mask_;
-  }
-  std::size_t mask_;
-  std::vector<std::uint32_t> start_, sorted_;
-};
-
-double particle_size(const FragmentInput& in, std::size_t i) {
-  const double volume = in.mass[i] / in.density[i];
-  return in.dimension() == 2 ? std::sqrt(volume) : std::cbrt(volume);
-}
-
 Vec<3> vector_at(const std::array<std::span<const double>, 3>& columns, std::size_t i) {
   return {columns[0][i], columns[1][i], columns[2].empty() ? 0.0 : columns[2][i]};
-}
-
-/// Joins all friends among `members`. Each particle looks into the grids of its own and of larger octaves, whose cells
-/// are at least as wide as any link between the two.
-void join_friends(const FragmentInput& in, const std::vector<std::uint32_t>& members, double b, DisjointSets& sets) {
-  std::vector<double> size(in.size());
-  std::vector<Cell> cell_of(in.size());
-  double smallest = std::numeric_limits<double>::infinity();
-  for (const std::uint32_t i : members) smallest = std::min(smallest, size[i] = particle_size(in, i));
-
-  const auto cell_in = [&](std::size_t i, int level) {
-    // Beyond this many cells neighbours can no longer be told apart in double precision anyway.
-    constexpr double far = 1e15;
-    const double width = std::ldexp(b * smallest, level + 1);
-    Cell cell{level, {0, 0, 0}};
-    for (int a = 0; a < in.dimension(); ++a) {
-      const double place = std::floor(in.position[a][i] / width);
-      cell.index[a] = static_cast<std::int64_t>(place > -far ? std::min(place, far) : -far);  // NaN goes to -far
-    }
-    return cell;
-  };
-  std::vector<int> levels;
-  for (const std::uint32_t i : members) {
-    const int level = std::ilogb(size[i] / smallest);
-    cell_of[i] = cell_in(i, level);
-    levels.push_back(level);
-  }
-  std::sort(levels.begin(), levels.end());
-  levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
-
-  const HashedCells cells(members, cell_of);
-  const int depth = in.dimension() == 3 ? 1 : 0;
-  for (const std::uint32_t i : members) {
-    const Vec<3> x = vector_at(in.position, i);
-    for (auto level = std::lower_bound(levels.begin(), levels.end(), cell_of[i].level); level != levels.end();
-         ++level) {
-      const Cell home = cell_in(i, *level);
-      for (int dz = -depth; dz <= depth; ++dz)
-        for (int dy = -1; dy <= 1; ++dy)
-          for (int dx = -1; dx <= 1; ++dx)
-            for (const std::uint32_t j :
-                 cells.at({*level, {home.index[0] + dx, home.index[1] + dy, home.index[2] + dz}})) {
-              if (j <= i && *level == cell_of[i].level) continue;  // seen from j
-              const double link = 0.5 * b * (size[i] + size[j]);
-              if ((vector_at(in.position, j) - x).squaredNorm() < link * link) sets.join(i, j);
-            }
-    }
-  }
 }
 
 Carried carried_by(const FragmentInput& in, std::size_t i) {
@@ -171,10 +72,9 @@ Carried& Carried::operator+=(const Carried& other) {
 std::vector<std::int32_t> find_groups(const FragmentInput& in, const FragmentSettings& settings) {
   std::vector<std::uint32_t> members;
   for (std::size_t i = 0; i < in.size(); ++i)
-    if ((in.damage.empty() || in.damage[i] < settings.damage_threshold) && std::isnormal(particle_size(in, i)))
+    if ((in.damage.empty() || in.damage[i] < settings.damage_threshold) && std::isnormal(in.particle_size(i)))
       members.push_back(static_cast<std::uint32_t>(i));
-  DisjointSets sets(in.size());
-  if (!members.empty()) join_friends(in, members, settings.linking_length, sets);
+  const std::vector<std::uint32_t> lowest_friend = join_friends(in, members, settings);
 
   struct Group {
     std::uint32_t root;
@@ -185,7 +85,7 @@ std::vector<std::int32_t> find_groups(const FragmentInput& in, const FragmentSet
   std::vector<Group> groups;
   std::vector<std::int32_t> group_of(in.size(), -1);  // by root, then by particle
   for (const std::uint32_t i : members) {
-    const std::uint32_t root = sets.root(i);  // the root is the lowest member, so it is met first
+    const std::uint32_t root = lowest_friend[i];  // the root is the lowest member, so it is met first
     if (root == i) {
       group_of[i] = static_cast<std::int32_t>(groups.size());
       groups.push_back({i, 0, 0.0, in.id[i]});
@@ -245,7 +145,7 @@ FragmentTable describe_groups(const FragmentInput& in, std::vector<std::int32_t>
     const std::size_t g = static_cast<std::size_t>(number[i] - 1);
     const Vec<3> r = vector_at(in.position, i) - table.fragments[g].centre;
     const Vec<3> v = vector_at(in.velocity, i) - table.fragments[g].velocity;
-    const double d = particle_size(in, i);
+    const double d = in.particle_size(i);
     moments[g].points += in.mass[i] * r * r.transpose();
     moments[g].inner += in.mass[i] * d * d / 12;
     moments[g].angular_momentum += in.mass[i] * r.cross(v);

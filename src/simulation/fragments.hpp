@@ -21,8 +21,14 @@ struct FragmentInput {
   std::span<const double> damage, distension;        ///< 1; optional: counts as 0 and 1
   std::span<const std::int32_t> id, body, material;  ///< >= 0; each particle has its own id
 
+  std::span<const double> smoothing_length;  ///< m; needed only to link by a round support
+  /// G = H H [1/m^2] in the order of Symmetric; all empty: H is round.
+  std::array<std::span<const double>, 6> smoothing_metric;
+  double nodes_per_h = 1;  ///< node spacings per smoothing length
+
   std::size_t size() const { return mass.size(); }
   int dimension() const { return position[2].empty() ? 2 : 3; }
+  double particle_size(std::size_t i) const;  ///< d = (m / rho)^(1/dimension) [m]
 };
 
 /// What any set of particles carries. Angular momentum is about the origin.
@@ -51,10 +57,13 @@ struct FragmentTable {
   Carried dust;                      ///< everything in no fragment: fragments + dust = all particles
 };
 
-/// Group of every particle: 1, 2, ... heaviest first, 0 for dust. Two particles are friends if
-/// |x_ij| < b (d_i + d_j) / 2, d = (m / rho)^(1/dimension), b = settings.linking_length; particles damaged to
-/// settings.damage_threshold or beyond have no friends; groups below settings.min_particles are dust. Linear in n
-/// however far the particles fly apart, because cells are hashed and come in sizes: one grid per octave of d.
+/// Group of every particle: 1, 2, ... heaviest first, 0 for dust. With b = settings.linking_length two particles are
+/// friends, depending on settings.link,
+///  - spacing: if |x_ij| < b (d_i + d_j) / 2;
+///  - support: if n_h |H_i x_ij| < b or n_h |H_j x_ij| < b: nearer than b node spacings in the metric of either;
+///  - automatic: by support where H is a tensor, else by spacing.
+/// Particles damaged to settings.damage_threshold or beyond have no friends; groups below settings.min_particles are
+/// dust.
 std::vector<std::int32_t> find_groups(const FragmentInput& in, const FragmentSettings& settings);
 
 /// Adds up what every group carries; `number` holds the group of each particle as find_groups returns it.

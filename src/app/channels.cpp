@@ -1,0 +1,121 @@
+#include "app/channels.hpp"
+
+namespace ejecta {
+
+template <int Dim>
+FieldView field_view(const Particles<Dim>& p, Field field) {
+  const FieldInfo& f = info(field);
+  FieldView view{std::string(f.name), std::string(f.unit), {}};
+  for (int k = 0; k < components(f.shape, Dim); ++k) view.components.push_back(p.column(field, k));
+  return view;
+}
+
+template <int Dim>
+ParticleView particle_view(const Particles<Dim>& p) {
+  ParticleView view;
+  for (int a = 0; a < Dim; ++a) view.position[static_cast<std::size_t>(a)] = p.column(Field::position, a);
+  view.mass = p.column(Field::mass);
+  view.density = p.column(Field::density);
+  view.smoothing_length = p.column(Field::smoothing_length);
+  if (p.has(Field::smoothing_metric))
+    for (int k = 0; k < symmetric_size<Dim>; ++k)
+      view.smoothing_metric[static_cast<std::size_t>(k)] = p.column(Field::smoothing_metric, k);
+  return view;
+}
+
+template <int Dim>
+FragmentInput fragment_input(const Particles<Dim>& p, const Scene& scene) {
+  FragmentInput in;
+  for (int a = 0; a < Dim; ++a) {
+    in.position[static_cast<std::size_t>(a)] = p.column(Field::position, a);
+    in.velocity[static_cast<std::size_t>(a)] = p.column(Field::velocity, a);
+  }
+  in.mass = p.column(Field::mass);
+  in.density = p.column(Field::density);
+  if (p.has(Field::damage)) in.damage = p.column(Field::damage);
+  if (p.has(Field::distension)) in.distension = p.column(Field::distension);
+  const ParticleView view = particle_view(p);
+  in.smoothing_length = view.smoothing_length;
+  in.smoothing_metric = view.smoothing_metric;
+  in.nodes_per_h = scene.numerics.nodes_per_h;
+  in.id = p.label(Label::id);
+  in.body = p.label(Label::body);
+  in.material = p.label(Label::material);
+  return in;
+}
+
+template <int Dim>
+Channel FrameChannels<Dim>::particle_channel(const Particles<Dim>& p, const std::optional<FragmentTable>& fragments) {
+  Channel particles;
+  particles.name = "particles";
+  particles.count = p.size();
+  for (int a = 0; a < Dim; ++a) particles.position[static_cast<std::size_t>(a)] = p.column(Field::position, a);
+  if (Dim == 2) {
+    zeros_.assign(p.size(), 0.0);
+    particles.position[2] = zeros_;
+  }
+  for (Field f : p.fields())
+    if (f != Field::position && info(f).role != Role::rate) particles.fields.push_back(field_view(p, f));
+  tensor_fields_ = tensor_fields(p);
+  for (const OwnedField& field : tensor_fields_) particles.fields.push_back(field.view());
+  particles.indices = {
+      {"id", p.label(Label::id)}, {"body", p.label(Label::body)}, {"material", p.label(Label::material)}};
+  if (fragments) particles.indices.push_back({"fragment_number", fragments->number});
+  return particles;
+}
+
+template <int Dim>
+Channel FrameChannels<Dim>::fragment_channel(const FragmentTable& table) {
+  enum { x, y, z, mass, vx, vy, vz, size, mean_damage, mean_distension };
+  for (auto& column : fragment_columns_) column.clear();
+  fragment_numbers_.clear();
+  for (const Fragment& f : table.fragments) {
+    for (int a = 0; a < 3; ++a) {
+      fragment_columns_[static_cast<std::size_t>(x + a)].push_back(f.centre[a]);
+      fragment_columns_[static_cast<std::size_t>(vx + a)].push_back(f.velocity[a]);
+    }
+    fragment_columns_[mass].push_back(f.carried.mass);
+    fragment_columns_[size].push_back(f.semi_axes[0]);
+    fragment_columns_[mean_damage].push_back(f.mean_damage);
+    fragment_columns_[mean_distension].push_back(f.mean_distension);
+    fragment_numbers_.push_back(f.number);
+  }
+  const auto& c = fragment_columns_;
+  Channel channel;
+  channel.name = "fragments";
+  channel.count = fragment_numbers_.size();
+  channel.position = {c[x], c[y], c[z]};
+  channel.fields = {{"mass", Dim == 3 ? "kg" : "kg/m", {c[mass]}},
+                    {"velocity", "m/s", {c[vx], c[vy], c[vz]}},
+                    {"longest_semi_axis", "m", {c[size]}},
+                    {"damage", "1", {c[mean_damage]}},
+                    {"distension", "1", {c[mean_distension]}}};
+  channel.indices = {{"number", fragment_numbers_}};
+  return channel;
+}
+
+template <int Dim>
+std::vector<Channel> FrameChannels<Dim>::update(const Simulation<Dim>& sim, const SampledImage& slice, double plane_y,
+                                                const std::optional<FragmentTable>& fragments) {
+  std::vector<Channel> all{particle_channel(sim.particles, fragments), image_channel(slice, "slice")};
+  if (Channel& image = all.back(); Dim == 3) {  // the picture plane is x-z in space
+    image.extent = {image.extent[0], 1, image.extent[1]};
+    image.origin = {image.origin[0], plane_y, image.origin[1]};
+    image.spacing = {image.spacing[0], 1, image.spacing[1]};
+  }
+  ellipsoids_ = find_ellipsoids(sim.particles, plane_y, sim.scene.numerics.nodes_per_h);
+  all.push_back(ellipsoids_.channel("ellipsoids"));
+  if (fragments) all.push_back(fragment_channel(*fragments));
+  return all;
+}
+
+template FieldView field_view<2>(const Particles<2>&, Field);
+template ParticleView particle_view<2>(const Particles<2>&);
+template FragmentInput fragment_input<2>(const Particles<2>&, const Scene&);
+template class FrameChannels<2>;
+template FieldView field_view<3>(const Particles<3>&, Field);
+template ParticleView particle_view<3>(const Particles<3>&);
+template FragmentInput fragment_input<3>(const Particles<3>&, const Scene&);
+template class FrameChannels<3>;
+
+}  // namespace ejecta

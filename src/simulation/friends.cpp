@@ -1,0 +1,185 @@
+#include "simulation/friends.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace ejecta {
+
+namespace {
+
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
+  std::uint32_t root(std::uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  /// The lower index becomes the root, so the result does not depend on the order of the calls.
+  void join(std::uint32_t i, std::uint32_t j) {
+    const std::uint32_t a = root(i), b = root(j);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+/// A cell of one of the grids; `level` counts octaves of particle size.
+struct Cell {
+  int level;
+  std::array<std::int64_t, 3> index;
+};
+
+/// Particles sorted into hashed cells. Two cells may share a bucket: that only costs a distance check.
+class HashedCells {
+ public:
+  HashedCells(const std::vector<std::uint32_t>& members, const std::vector<Cell>& cell_of)
+      : mask_(std::bit_ceil(members.size() + 1) - 1), start_(mask_ + 2, 0), sorted_(members.size()) {
+    for (const std::uint32_t i : members) ++start_[bucket(cell_of[i]) + 1];
+    std::partial_sum(start_.begin(), start_.end(), start_.begin());
+    std::vector<std::uint32_t> next(start_.begin(), start_.end() - 1);
+    for (const std::uint32_t i : members) sorted_[next[bucket(cell_of[i])]++] = i;
+  }
+  std::span<const std::uint32_t> at(const Cell& cell) const {
+    const std::size_t b = bucket(cell);
+    return {sorted_.data() + start_[b], start_[b + 1] - start_[b]};
+  }
+
+ private:
+  std::size_t bucket(const Cell& cell) const {
+    std::uint64_t hash = static_cast<std::uint64_t>(cell.level);
+    for (const std::int64_t index : cell.index) {  // multiply and rotate by odd constants spreads neighbours apart
+      hash = (hash ^ static_cast<std::uint64_t>(index)) * 0x9E3779B97F4A7C15ull;
+      hash = std::rotl(hash, 29);
+    }
+    return static_cast<std::size_t>(hash ^ (hash >> 32)) & mask_;
+  }
+  std::size_t mask_;
+  std::vector<std::uint32_t> start_, sorted_;
+};
+
+Vec<3> position_of(const FragmentInput& in, std::size_t i) {
+  return {in.position[0][i], in.position[1][i], in.dimension() == 2 ? 0.0 : in.position[2][i]};
+}
+
+/// |x_ij| < b (d_i + d_j) / 2.
+class LinkBySpacing {
+ public:
+  LinkBySpacing(const FragmentInput& in, const std::vector<std::uint32_t>& members, double b) : reach_(in.size()) {
+    for (const std::uint32_t i : members) reach_[i] = b * in.particle_size(i);
+  }
+  /// No link of this particle with one of no larger reach is longer [m].
+  double reach(std::size_t i) const { return reach_[i]; }
+  bool operator()(std::size_t i, std::size_t j, const Vec<3>& x) const {
+    const double link = 0.5 * (reach_[i] + reach_[j]);
+    return x.squaredNorm() < link * link;
+  }
+
+ private:
+  std::vector<double> reach_;
+};
+
+/// n_h |H_i x| < b or n_h |H_j x| < b.
+class LinkBySupport {
+ public:
+  LinkBySupport(const FragmentInput& in, const std::vector<std::uint32_t>& members, double b)
+      : metric_(in.size()), reach_(in.size()) {
+    const double scale = in.nodes_per_h * in.nodes_per_h / (b * b);
+    for (const std::uint32_t i : members) {
+      metric_[i] = scale * metric_of(in, i);
+      reach_[i] = std::sqrt(metric_[i].inverse().diagonal().maxCoeff());
+      if (std::isnormal(reach_[i])) continue;
+      reach_[i] = b * in.particle_size(i);  // H of a failing run may be broken
+      metric_[i] = Mat<3>::Identity() / (reach_[i] * reach_[i]);
+    }
+  }
+  double reach(std::size_t i) const { return reach_[i]; }
+  bool operator()(std::size_t i, std::size_t j, const Vec<3>& x) const {
+    return x.dot(metric_[i] * x) < 1 || x.dot(metric_[j] * x) < 1;
+  }
+
+ private:
+  static Mat<3> metric_of(const FragmentInput& in, std::size_t i) {
+    const auto& g = in.smoothing_metric;
+    if (g[0].empty()) return Mat<3>::Identity() / (in.smoothing_length[i] * in.smoothing_length[i]);
+    if (in.dimension() == 3)
+      return matrix_of<3>((Symmetric<3>() << g[0][i], g[1][i], g[2][i], g[3][i], g[4][i], g[5][i]).finished());
+    Mat<3> metric =
+        Mat<3>::Identity() * std::max(g[0][i], g[1][i]);  // the third axis of the plane is never looked along
+    metric.topLeftCorner<2, 2>() << g[0][i], g[2][i], g[2][i], g[1][i];
+    return metric;
+  }
+  std::vector<Mat<3>> metric_;
+  std::vector<double> reach_;
+};
+
+/// Joins all friends among `members`. Each particle looks into the grids of its own and of larger octaves, whose cells
+/// are at least as wide as any link between the two.
+template <class Link>
+void join_linked(const FragmentInput& in, const std::vector<std::uint32_t>& members, const Link& linked,
+                 DisjointSets& sets) {
+  std::vector<Cell> cell_of(in.size());
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const std::uint32_t i : members) smallest = std::min(smallest, linked.reach(i));
+
+  const auto cell_in = [&](std::size_t i, int level) {
+    // Beyond this many cells neighbours can no longer be told apart in double precision anyway.
+    constexpr double far = 1e15;
+    const double width = std::ldexp(smallest, level + 1);
+    Cell cell{level, {0, 0, 0}};
+    for (std::size_t a = 0; a < static_cast<std::size_t>(in.dimension()); ++a) {
+      const double place = std::floor(in.position[a][i] / width);
+      cell.index[a] = static_cast<std::int64_t>(place > -far ? std::min(place, far) : -far);  // NaN goes to -far
+    }
+    return cell;
+  };
+  std::vector<int> levels;
+  for (const std::uint32_t i : members) {
+    const int level = std::ilogb(linked.reach(i) / smallest);
+    cell_of[i] = cell_in(i, level);
+    levels.push_back(level);
+  }
+  std::sort(levels.begin(), levels.end());
+  levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
+
+  const HashedCells cells(members, cell_of);
+  const int depth = in.dimension() == 3 ? 1 : 0;
+  for (const std::uint32_t i : members) {
+    const Vec<3> x = position_of(in, i);
+    for (auto level = std::lower_bound(levels.begin(), levels.end(), cell_of[i].level); level != levels.end();
+         ++level) {
+      const Cell home = cell_in(i, *level);
+      for (int dz = -depth; dz <= depth; ++dz)
+        for (int dy = -1; dy <= 1; ++dy)
+          for (int dx = -1; dx <= 1; ++dx)
+            for (const std::uint32_t j :
+                 cells.at({*level, {home.index[0] + dx, home.index[1] + dy, home.index[2] + dz}})) {
+              if (j <= i && *level == cell_of[i].level) continue;  // seen from j
+              if (linked(i, j, position_of(in, j) - x)) sets.join(i, j);
+            }
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> join_friends(const FragmentInput& in, const std::vector<std::uint32_t>& members,
+                                        const FragmentSettings& settings) {
+  DisjointSets sets(in.size());
+  const bool by_support = settings.link == FragmentLink::support ||
+                          (settings.link == FragmentLink::automatic && !in.smoothing_metric[0].empty());
+  if (by_support) {
+    join_linked(in, members, LinkBySupport(in, members, settings.linking_length), sets);
+  } else {
+    join_linked(in, members, LinkBySpacing(in, members, settings.linking_length), sets);
+  }
+  std::vector<std::uint32_t> root(in.size());
+  for (std::uint32_t i = 0; i < in.size(); ++i) root[i] = sets.root(i);
+  return root;
+}
+
+}  // namespace ejecta
