@@ -23,7 +23,7 @@ struct Round {
   }
 };
 
-/// Where particles and their images are, and to which body they belong.
+/// Where particles and their images are, and of what they are made.
 template <int Dim>
 void place_voters(Simulation<Dim>& sim) {
   const Particles<Dim>& p = sim.particles;
@@ -32,8 +32,8 @@ void place_voters(Simulation<Dim>& sim) {
   auto& places = sim.shape_scratch.places;
   places.resize(n + images.size());
   sim.shape_scratch.votes.resize(n + images.size());
-  const auto body = p.label(Label::body);
-  parallel_for(0, n, [&](std::size_t i) { places[i] = {p.vector(Field::position, i), body[i]}; });
+  const auto material = p.label(Label::material);
+  parallel_for(0, n, [&](std::size_t i) { places[i] = {p.vector(Field::position, i), material[i]}; });
   for (std::size_t k = 0; k < images.size(); ++k) {
     auto& place = places[n + k] = places[images[k].source];
     for (int a = 0; a < Dim; ++a) place.x[a] = image_position(sim.scene.boundary, images[k], a, place.x[a]);
@@ -74,7 +74,7 @@ void collect_votes(Simulation<Dim>& sim, double reach) {
         FirstShell<Dim> shell(sim.particles.symmetric(Field::smoothing_metric, i), sim.scene.numerics.nodes_per_h,
                               support);
         for (const std::uint32_t j : candidates)
-          if (j != i && places[j].body == places[i].body) shell.add(places[j].x - places[i].x);
+          if (j != i && places[j].material == places[i].material) shell.add(places[j].x - places[i].x);
         sim.shape_scratch.votes[i] = shell.vote(reach);
         sim.shape_scratch.places[i].neighbours = shell.neighbours();
       });
@@ -100,7 +100,7 @@ Round apply_votes(Simulation<Dim>& sim, bool sum_neighbours) {
         const double eta2 = x.dot(metric * x);
         if (!(eta2 < Kernel::support * Kernel::support) || j == i) continue;
         const double eta = std::sqrt(eta2);
-        if (places[j].body == places[i].body) mean.add(Kernel::value(eta), votes[j]);
+        if (places[j].material == places[i].material) mean.add(Kernel::value(eta), votes[j]);
         if (eta > 0) sum -= eta * Kernel::slope_over_q(eta, 1 / eta);
       }
       ShapeActions actions;
@@ -124,15 +124,11 @@ Round vote(Simulation<Dim>& sim, bool start) {
 /// One update of the sizes from the sums of the last round. Returns the largest |logarithm| of a factor.
 template <int Dim>
 double resize(Simulation<Dim>& sim) {
-  Particles<Dim>& p = sim.particles;
+  const auto h = sim.particles.column(Field::smoothing_length);
+  auto& before = sim.shape_scratch.lengths;
+  before.assign(h.begin(), h.end());
   smoothing_lengths(sim);
-  const auto h = p.column(Field::smoothing_length);
-  return -parallel_min(p.size(), 0, [&](std::size_t i) {
-            const Mat<Dim> metric = p.symmetric(Field::smoothing_metric, i);
-            const double factor = 1 / (h[i] * h[i] * std::pow(metric.determinant(), 1.0 / Dim));
-            p.set_symmetric(Field::smoothing_metric, i, factor * metric);
-            return -0.5 * std::abs(std::log(factor));
-          }).value;
+  return -parallel_min(h.size(), 0, [&](std::size_t i) { return -std::abs(std::log(h[i] / before[i])); }).value;
 }
 
 }  // namespace

@@ -73,11 +73,12 @@ template <int Dim>
 struct ShapeScratch {
   struct Place {
     Vec<Dim> x;
-    std::int32_t body;
+    std::int32_t material;
     int neighbours = 0;
   };
   std::vector<Place> places;
   std::vector<ShapeVote<Dim>> votes;
+  std::vector<double> lengths;
 };
 
 template <int Dim>
