@@ -31,7 +31,7 @@ MAPS = {
 }
 DEFAULT_MAP = "Viridis (matplotlib)"
 ALL_POSITIVE_MAP = "Inferno (matplotlib)"
-NATURAL_RANGES = {"damage": (0.0, 1.0)}
+NATURAL_RANGES = {"damage": (0.0, 1.0), "damage_1": (0.0, 1.0), "damage_2": (0.0, 1.0), "damage_3": (0.0, 1.0)}
 
 NUMBER = "fragment_number"  # 0 is dust
 PALETTE = 120               # colours of fragments; numbers that differ by it look alike
@@ -50,7 +50,7 @@ def settings():
 
 
 def channel(name):
-    """The source of a channel: particles, slice or fragments."""
+    """The source of a channel: particles, slice, ellipsoids or fragments."""
     return PVTrivialProducer(registrationName=name)
 
 

@@ -75,6 +75,7 @@ std::map<std::string, ColourRange> default_ranges(const Scene& scene, const std:
                                             {"density", {0, densest}},
                                             {"velocity", {0, fastest}},
                                             {"distension", {1, std::max(1.01, distension)}},
+                                            {"aspect", {1, std::clamp(scene.numerics.largest_aspect, 1.5, 4.0)}},
                                             {"damage", {0, 1}}};
   for (const auto& [name, range] : scene.insitu.ranges) ranges[name] = range;
   return ranges;
@@ -105,8 +106,10 @@ Frames<Dim>::Frames(const Simulation<Dim>& sim, std::filesystem::path folder, bo
   settings.time_end = sim.scene.time_end;
   settings.particle_radius = 0.6 * sim.scene.spacing;
   settings.ranges = ranges_;
-  const auto scripts = insitu.pipelines.empty() ? default_pipelines(sim.scene.fragments.enabled) : insitu.pipelines;
-  bridge_ = std::make_unique<CatalystBridge>(scripts, settings);
+  settings.nodes_per_h = sim.scene.numerics.nodes_per_h;
+  settings.radius_per_smoothing_length = 0.6 / settings.nodes_per_h;
+  settings.kernel_support = kernel_support(sim.scene.numerics.kernel);
+  bridge_ = std::make_unique<CatalystBridge>(pipeline_scripts(insitu.pipelines, sim.scene.fragments.enabled), settings);
 }
 
 template <int Dim>

@@ -194,7 +194,7 @@ int run_command(const RunOptions& options) {
   check_memory(job.scene, job.materials.list);
   set_threads(job.scene.threads > 0 ? job.scene.threads : available_cores());
   if (job.scene.insitu.enabled) {
-    check_pipeline_scripts(job.scene.insitu.pipelines);
+    check_pipeline_scripts(pipeline_scripts(job.scene.insitu.pipelines, job.scene.fragments.enabled));
     job.catalyst = gl_works();
     if (!job.catalyst) {
       if (job.scene.insitu.on_error == OnError::abort)

@@ -48,6 +48,19 @@ std::vector<std::string> default_pipelines(bool fragments) {
   return scripts;
 }
 
+std::vector<std::string> pipeline_scripts(const std::vector<std::string>& names, bool fragments) {
+  if (names.empty()) return default_pipelines(fragments);
+  std::vector<std::string> scripts;
+  for (const std::string& name : names) {
+    if (name != default_pipelines_name) {
+      scripts.push_back(name);
+    } else {
+      for (std::string& script : default_pipelines(fragments)) scripts.push_back(std::move(script));
+    }
+  }
+  return scripts;
+}
+
 void check_pipeline_scripts(const std::vector<std::string>& paths) {
   std::vector<std::string> problems;
   for (const std::string& path : paths) {
@@ -87,7 +100,9 @@ std::string frame_json(const PipelineSettings& s, std::span<const Channel> chann
       << ",\"view_center\":[" << number(s.view_center[0]) << ',' << number(s.view_center[1]) << ','
       << number(s.view_center[2]) << "],\"view_size\":" << number(s.view_size) << ",\"time_end\":" << number(s.time_end)
       << ",\"particle_radius\":" << number(s.particle_radius)
-      << ",\"radius_per_smoothing_length\":" << number(s.radius_per_smoothing_length) << ",\"ranges\":{";
+      << ",\"radius_per_smoothing_length\":" << number(s.radius_per_smoothing_length)
+      << ",\"nodes_per_h\":" << number(s.nodes_per_h) << ",\"kernel_support\":" << number(s.kernel_support)
+      << ",\"ranges\":{";
   const char* separator = "";
   for (const auto& [field, range] : s.ranges) {
     out << separator << json_string(field) << ":[" << number(range.min) << ',' << number(range.max) << ']';

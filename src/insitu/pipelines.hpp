@@ -22,11 +22,17 @@ struct PipelineSettings {
   double time_end = 0;                        ///< s, chooses the unit of the time stamp
   double particle_radius = 0;                 ///< m, of a drawn sphere where there is no smoothing length
   double radius_per_smoothing_length = 0.45;  ///< of a drawn sphere
+  double nodes_per_h = 1.3;                   ///< node spacings per smoothing length
+  double kernel_support = 2;                  ///< of the kernel, in smoothing lengths
   std::map<std::string, ColourRange> ranges;  ///< field -> fixed colour range [SI]
 };
 
 /// Absolute paths of the scripts drawn by default: slice, cutaway and, where fragments are followed, fragments.
 std::vector<std::string> default_pipelines(bool fragments);
+
+/// The scripts of a scene: `names` with "default" replaced by the default ones, which are also what an empty list
+/// means.
+std::vector<std::string> pipeline_scripts(const std::vector<std::string>& names, bool fragments);
 
 /// Compiles each script without running it. Throws InputError naming file and line of every script that is missing or
 /// has a syntax error.

@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scene/document.hpp"
@@ -86,6 +87,9 @@ struct Boundary {
 struct ColourRange {
   double min, max;
 };
+
+/// Stands for the default set among insitu.pipelines.
+inline constexpr std::string_view default_pipelines_name = "default";
 
 struct InSitu {
   bool enabled = true;

@@ -25,17 +25,20 @@ void take_materials(Document& document, Scene& scene, Problems& problems) {
   document.tables.erase("materials");
 }
 
-/// A pipeline is written relative to the scene file.
+/// A pipeline is written relative to the scene file, or is one of those that come with Ejecta.
 void find_pipelines(Scene& scene, const Document& document, Problems& problems) {
   namespace fs = std::filesystem;
   for (std::string& pipeline : scene.insitu.pipelines) {
-    const fs::path path = fs::path(scene.file).parent_path() / pipeline;  // an absolute path stays itself
-    if (!fs::is_regular_file(path)) {
-      const std::string key = "insitu.pipelines";
-      problems.add(document.origin(key), key,
-                   fmt::format("expected a script, got \"{}\": no such file {}", pipeline, path.string()));
+    if (pipeline == default_pipelines_name) continue;
+    const fs::path beside = fs::path(scene.file).parent_path() / pipeline;  // an absolute path stays itself
+    const fs::path shipped = fs::path(EJECTA_SCRIPT_FOLDER) / pipeline;
+    if (const bool own = fs::is_regular_file(beside); own || fs::is_regular_file(shipped)) {
+      pipeline = fs::absolute(own ? beside : shipped).lexically_normal().string();
     } else {
-      pipeline = fs::absolute(path).lexically_normal().string();
+      const std::string key = "insitu.pipelines";
+      std::string complaint = fmt::format("expected a script, got \"{}\": no such file {}", pipeline, beside.string());
+      if (shipped != beside) complaint += fmt::format(", nor {}", shipped.lexically_normal().string());
+      problems.add(document.origin(key), key, complaint);
     }
   }
 }

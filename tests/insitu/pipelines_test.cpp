@@ -25,6 +25,14 @@ TEST(Pipelines, TheDefaultOnesPassTheCheck) {
   EXPECT_TRUE(problems_of(default_pipelines(true)).empty());
 }
 
+TEST(Pipelines, TheDefaultOnesMayBeNamedAmongOthers) {
+  EXPECT_EQ(pipeline_scripts({}, true), default_pipelines(true));
+  std::vector<std::string> expected = default_pipelines(false);
+  expected.insert(expected.begin(), "/mine.py");
+  expected.push_back("/yours.py");
+  EXPECT_EQ(pipeline_scripts({"/mine.py", "default", "/yours.py"}, false), expected);
+}
+
 TEST(Pipelines, ASyntaxErrorIsNamedWithFileAndLine) {
   const std::string path = fresh_folder("syntax") + "/bad.py";
   std::ofstream(path) << "# script-version: 2.0\nx = 1\ndef f(:\n";

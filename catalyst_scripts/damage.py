@@ -1,0 +1,38 @@
+# script-version: 2.0
+"""The particles of a layer coloured by their largest damage, with strokes along the cracks where damage is a tensor."""
+from paraview import catalyst
+
+import ejecta_view as ejecta
+import tensor_shapes
+
+options = catalyst.Options()
+source = ejecta.channel("ellipsoids")
+view = None
+
+
+def make_view():
+    s = ejecta.settings()
+    tensor = "damage_1" in ejecta.fields(source)
+    view = ejecta.View("damage", "damage, with strokes along the cracks" if tensor else "damage")
+    tensor_shapes.look_at_layer(view)
+    filled = tensor_shapes.draw(source, tensor_shapes.ellipses, "damage", 0.6 / s["nodes_per_h"], True, False)
+    view.show(filled, "Surface", Ambient=1, Diffuse=0, ColorArrayName=["CELLS", "damage"],
+              LookupTable=ejecta.colour_map("damage", source))
+    if tensor:
+        strokes = tensor_shapes.draw(source, tensor_shapes.cracks)
+        view.show(strokes, "Wireframe", Ambient=1, Diffuse=0, AmbientColor=ejecta.INK, DiffuseColor=ejecta.INK,
+                  LineWidth=1.5, ColorArrayName=[None, ""])
+    view.colour_bar("damage", source, 0.91, 0.25, 0.5, upright=True)
+    view.scale_bar(0.03, 0.04, 0.2 * s["view_size"])
+    return view
+
+
+def catalyst_execute(info):
+    global view
+    if not ejecta.has_data(source):
+        return
+    if "damage" not in ejecta.fields(source):
+        raise ValueError("the scene has no damage to show")
+    if view is None:
+        view = make_view()
+    view.save(info)

@@ -1,0 +1,37 @@
+# script-version: 2.0
+"""The smoothing ellipses one node spacing wide, coloured by damage or aspect, and the whole support of a few."""
+from paraview import catalyst
+
+import ejecta_view as ejecta
+import tensor_shapes
+
+options = catalyst.Options()
+source = ejecta.channel("ellipsoids")
+view = None
+
+
+def make_view():
+    s = ejecta.settings()
+    field = "damage" if "damage" in ejecta.fields(source) else "aspect"
+    spacing, support = 0.5 / s["nodes_per_h"], s["kernel_support"]
+    view = ejecta.View("ellipses", f"smoothing ellipses, one node spacing wide, by {ejecta.label(field)}; "
+                                   f"lines: full support ({support:g} h)")
+    tensor_shapes.look_at_layer(view)
+    filled = tensor_shapes.draw(source, tensor_shapes.ellipses, field, 0.95 * spacing, True, False)
+    view.show(filled, "Surface", Ambient=1, Diffuse=0, ColorArrayName=["CELLS", field],
+              LookupTable=ejecta.colour_map(field, source))
+    supports = tensor_shapes.draw(source, tensor_shapes.ellipses, field, support, False, True)
+    view.show(supports, "Wireframe", Ambient=1, Diffuse=0, AmbientColor=ejecta.INK, DiffuseColor=ejecta.INK,
+              LineWidth=1.5, ColorArrayName=[None, ""])
+    view.colour_bar(field, source, 0.91, 0.25, 0.5, upright=True)
+    view.scale_bar(0.03, 0.04, 0.2 * s["view_size"])
+    return view
+
+
+def catalyst_execute(info):
+    global view
+    if not ejecta.has_data(source):
+        return
+    if view is None:
+        view = make_view()
+    view.save(info)
