@@ -15,14 +15,10 @@ def make_view():
     tensor = "damage_1" in ejecta.fields(source)
     view = ejecta.View("damage", "damage, with strokes along the cracks" if tensor else "damage")
     tensor_shapes.look_at_layer(view)
-    filled = tensor_shapes.draw(source, tensor_shapes.ellipses, "damage", 0.6 / s["nodes_per_h"], True, False)
-    view.show(filled, "Surface", Ambient=1, Diffuse=0, ColorArrayName=["CELLS", "damage"],
-              LookupTable=ejecta.colour_map("damage", source))
+    shapes = tensor_shapes.draw(source, tensor_shapes.ellipses, "damage", 0.7 / s["nodes_per_h"], True, False)
+    tensor_shapes.show_polygons(view, shapes, "damage", source)
     if tensor:
-        strokes = tensor_shapes.draw(source, tensor_shapes.cracks)
-        view.show(strokes, "Wireframe", Ambient=1, Diffuse=0, AmbientColor=ejecta.INK, DiffuseColor=ejecta.INK,
-                  LineWidth=1.5, ColorArrayName=[None, ""])
-    view.colour_bar("damage", source, 0.91, 0.25, 0.5, upright=True)
+        tensor_shapes.show_lines(view, tensor_shapes.draw(source, tensor_shapes.cracks))
     view.scale_bar(0.03, 0.04, 0.2 * s["view_size"])
     return view
 

@@ -31,6 +31,8 @@ MAPS = {
 }
 DEFAULT_MAP = "Viridis (matplotlib)"
 ALL_POSITIVE_MAP = "Inferno (matplotlib)"
+# Light enough at both ends for dark lines on it: x, red, green, blue.
+UNDER_INK = [0.0, 0.66, 0.73, 0.84, 0.3, 1.0, 0.86, 0.55, 0.65, 0.97, 0.52, 0.25, 1.0, 0.84, 0.14, 0.16]
 NATURAL_RANGES = {"damage": (0.0, 1.0), "damage_1": (0.0, 1.0), "damage_2": (0.0, 1.0), "damage_3": (0.0, 1.0)}
 
 NUMBER = "fragment_number"  # 0 is dust
@@ -123,9 +125,12 @@ def map_name(field, low):
 
 def _map_points(name, low, high):
     """A preset spread over [low, high] as x, r, g, b, x, r, g, b, ... The white of a diverging map stays at zero."""
-    presets = vtkSMTransferFunctionPresets.GetInstance()
-    index = next(i for i in range(presets.GetNumberOfPresets()) if presets.GetPresetName(i) == name)
-    flat = json.loads(presets.GetPresetAsString(index))["RGBPoints"]
+    if name is UNDER_INK:
+        flat = UNDER_INK
+    else:
+        presets = vtkSMTransferFunctionPresets.GetInstance()
+        index = next(i for i in range(presets.GetNumberOfPresets()) if presets.GetPresetName(i) == name)
+        flat = json.loads(presets.GetPresetAsString(index))["RGBPoints"]
     first, last = flat[0], flat[-4]
     points = []
     for i in range(0, len(flat), 4):
@@ -138,12 +143,15 @@ def _map_points(name, low, high):
     return points
 
 
-def colour_map(field, source, name=None, scale=1.0):
-    """The lookup table of a field over its fixed range, times `scale`. Where there is no matter (NaN) it is pale."""
+def colour_map(field, source, name=None, scale=1.0, under_ink=False):
+    """The lookup table of a field over its fixed range, times `scale`. Where there is no matter (NaN) it is pale.
+
+    `under_ink`: a map on which dark lines stand out, instead of the field's own.
+    """
     low, high = (scale * value for value in colour_range(field, source))
-    table = GetColorTransferFunction(name or field)
+    table = GetColorTransferFunction(name or (field + " under ink" if under_ink else field))
     table.AutomaticRescaleRangeMode = "Never"
-    preset = map_name(field, low)
+    preset = UNDER_INK if under_ink else map_name(field, low)
     table.ColorSpace = "Diverging" if preset == DIVERGING else "RGB"
     table.RGBPoints = _map_points(preset, low, high)
     table.NanColor = EMPTY
@@ -305,10 +313,10 @@ class View:
         unit, scale = readable_unit("m", length)
         self.text(f"{length * scale:g} {unit}", x, y + 0.008, 14)
 
-    def colour_bar(self, field, source, x, y, length, upright=False):
+    def colour_bar(self, field, source, x, y, length, upright=False, under_ink=False):
         """A colour bar titled `field [unit]` that counts in a readable unit; (x, y) is its lower left corner."""
         unit, scale = readable_unit(settings()["units"].get(field, "1"), max(map(abs, colour_range(field, source))))
-        table = colour_map(field, source, f"{self.name} bar {field}", scale)
+        table = colour_map(field, source, f"{self.name} bar {field}", scale, under_ink)
         bar = GetScalarBar(table, self.view)
         bar.Title = label(field) + (f" [{unit}]" if unit else "")
         bar.ComponentTitle = ""

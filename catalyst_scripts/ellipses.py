@@ -17,13 +17,9 @@ def make_view():
     view = ejecta.View("ellipses", f"smoothing ellipses, one node spacing wide, by {ejecta.label(field)}; "
                                    f"lines: full support ({support:g} h)")
     tensor_shapes.look_at_layer(view)
-    filled = tensor_shapes.draw(source, tensor_shapes.ellipses, field, 0.95 * spacing, True, False)
-    view.show(filled, "Surface", Ambient=1, Diffuse=0, ColorArrayName=["CELLS", field],
-              LookupTable=ejecta.colour_map(field, source))
-    supports = tensor_shapes.draw(source, tensor_shapes.ellipses, field, support, False, True)
-    view.show(supports, "Wireframe", Ambient=1, Diffuse=0, AmbientColor=ejecta.INK, DiffuseColor=ejecta.INK,
-              LineWidth=1.5, ColorArrayName=[None, ""])
-    view.colour_bar(field, source, 0.91, 0.25, 0.5, upright=True)
+    shapes = tensor_shapes.draw(source, tensor_shapes.ellipses, field, 0.95 * spacing, True, False)
+    tensor_shapes.show_polygons(view, shapes, field, source)
+    tensor_shapes.show_lines(view, tensor_shapes.draw(source, tensor_shapes.ellipses, field, support, False, True))
     view.scale_bar(0.03, 0.04, 0.2 * s["view_size"])
     return view
 

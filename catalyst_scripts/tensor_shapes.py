@@ -13,8 +13,9 @@ from vtkmodules.vtkCommonDataModel import vtkCellArray
 
 import ejecta_view as ejecta
 
-FULL_SUPPORTS = 12      # about as many particles show the whole ellipse their kernel reaches
-LEAST_DAMAGE = 0.02     # below this a stroke would be a dot
+FULL_SUPPORTS = 12        # about as many particles show the whole ellipse their kernel reaches
+LEAST_DAMAGE = 0.05       # below this a stroke would be a dot
+SHORTEST_STROKE = 1 / 60  # of the width of the picture; finer particles share strokes
 
 
 def draw(source, function, *arguments):
@@ -31,6 +32,18 @@ def look_at_layer(view):
     if s["dimension"] == 2:
         return view.look_at_scene()
     return view.look(s["view_center"], s["view_size"], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0])
+
+
+def show_polygons(view, drawn, field, source):
+    """Shows what draw() made, coloured by `field` of the channel, with its colour bar."""
+    view.show(drawn, "Surface", Ambient=1, Diffuse=0, ColorArrayName=["CELLS", field],
+              LookupTable=ejecta.colour_map(field, source, under_ink=True))
+    view.colour_bar(field, source, 0.60, 0.035, 0.36, under_ink=True)
+
+
+def show_lines(view, drawn):
+    view.show(drawn, "Wireframe", Ambient=1, Diffuse=0, AmbientColor=ejecta.INK, DiffuseColor=ejecta.INK,
+              LineWidth=max(1.0, 1.6 * view.size[1] / 720), ColorArrayName=[None, ""])
 
 
 def column(data, name):
@@ -94,20 +107,33 @@ def ellipses(data, output, field, scale, filled, chosen_only):
     fill(output, points, corners, filled, field, column(data, field)[keep])
 
 
+def most_damaged(data, cell):
+    """Of each square of edge `cell` [m] of the picture that holds particles, the most damaged one."""
+    right, up, _ = picture_axes()
+    bins = [numpy.floor(column(data, "position_" + "xyz"[a]) / cell) for a in (right, up)]
+    order = numpy.lexsort((column(data, "id"), -column(data, "damage_1"), *bins))
+    u, v = (b[order] for b in bins)
+    first = numpy.ones(len(order), bool)
+    first[1:] = (u[1:] != u[:-1]) | (v[1:] != v[:-1])
+    return order[first]
+
+
 def cracks(data, output):
-    """For each principal direction of damage a stroke where the plane across it cuts the picture: one node spacing times
-    the damage long, and shorter the less steeply the crack stands on the picture."""
+    """For each principal direction of damage a stroke where the plane across it cuts the picture: its length goes with
+    the damage, up to one node spacing or what can be seen, and with how steeply the crack stands on the picture."""
     s = ejecta.settings()
     right, up, _ = picture_axes()
-    size = column(data, "smoothing_length") / s["nodes_per_h"]
+    spacing = numpy.median(column(data, "smoothing_length")) / s["nodes_per_h"]
+    length = max(spacing, SHORTEST_STROKE * s["view_size"])
+    chosen = most_damaged(data, length)
     strokes, values = [], []
     for k in range(s["dimension"]):
-        across = column(data, f"damage_axis_{k + 1}")
+        across = column(data, f"damage_axis_{k + 1}")[chosen]
         along = numpy.zeros_like(across)
         along[:, right], along[:, up] = -across[:, up], across[:, right]
-        keep = numpy.hypot(along[:, right], along[:, up]) > LEAST_DAMAGE
-        half = 0.5 * size[keep, None] * along[keep]
-        centre = centres(data, keep, 2e-3 * s["view_size"])
+        seen = numpy.hypot(along[:, right], along[:, up]) > LEAST_DAMAGE
+        half = 0.5 * length * along[seen]
+        centre = centres(data, chosen[seen], 2e-3 * s["view_size"])
         strokes.append(numpy.stack([centre - half, centre + half], axis=1))
-        values.append(column(data, f"damage_{k + 1}")[keep])
+        values.append(column(data, f"damage_{k + 1}")[chosen][seen])
     fill(output, numpy.concatenate(strokes), 2, False, "damage_1", numpy.concatenate(values))
