@@ -98,7 +98,7 @@ void check_memory(const Scene& scene, const std::vector<Material>& materials) {
 template <int Dim>
 std::size_t memory_bytes(const Simulation<Dim>& sim) {
   return sim.particles.bytes() + sim.lists.bytes() + sim.pass->bytes() + sim.intact.capacity() * sizeof(double) +
-         sim.order.capacity() * sizeof(std::uint32_t);
+         sim.order.capacity() * sizeof(std::uint32_t) + sim.shape_scratch.bytes();
 }
 
 template <int Dim>

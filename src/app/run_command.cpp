@@ -91,6 +91,12 @@ Summary summarise(const Simulation<Dim>& sim, const Frames<Dim>& frames, const f
   s.mass_error_rel = errors.mass;
   s.momentum_error_rel = errors.momentum;
   s.energy_error_rel = errors.energy;
+  if (sim.scene.numerics.scheme == SchemeKind::asph) {
+    s.shape_votes = sim.shape_report.votes;
+    s.shape_few_neighbours = sim.shape_report.few_neighbours;
+    s.shape_limited_change = sim.shape_report.limited_change;
+    s.shape_largest_aspect = sim.shape_report.largest_aspect;
+  }
   s.images = frames.images();
   s.insitu_share = s.wall_s > 0 ? insitu / s.wall_s : 0;
   s.insitu_bytes_written = folder_bytes(folder / "images");
@@ -120,6 +126,14 @@ void conclude(Simulation<Dim>& sim, const Frames<Dim>& frames, const Job& job, i
   if (sim.unconverged > 0)
     spdlog::warn("the distension solver {} failed to converge in {} particle-steps",
                  name_of(sim.scene.numerics.distension_solver), sim.unconverged);
+  if (const ShapeReport& r = sim.shape_report; r.votes > 0) {
+    const double percent = 100 / static_cast<double>(r.votes);
+    spdlog::info(
+        "shape of H: {} votes; {:.3g} % had too few neighbours, {:.3g} % changed as much as allowed, {:.3g} % reached "
+        "the largest aspect",
+        r.votes, percent * static_cast<double>(r.few_neighbours), percent * static_cast<double>(r.limited_change),
+        percent * static_cast<double>(r.largest_aspect));
+  }
   FigureSettings figures;
   figures.title = sim.scene.title;
   figures.resolution_limit = sim.scene.fragments.min_particles * sim.particles.column(Field::mass)[0];

@@ -30,6 +30,10 @@ std::string summary_json(const Summary& s) {
   add("mass_error_rel", s.mass_error_rel);
   add("momentum_error_rel", s.momentum_error_rel);
   add("energy_error_rel", s.energy_error_rel);
+  add("shape_votes", s.shape_votes);
+  add("shape_few_neighbours", s.shape_few_neighbours);
+  add("shape_limited_change", s.shape_limited_change);
+  add("shape_largest_aspect", s.shape_largest_aspect);
   add("images", s.images);
   add("insitu_share", s.insitu_share);
   add("insitu_bytes_written", s.insitu_bytes_written);

@@ -1,3 +1,5 @@
+#include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 #include "base/parallel.hpp"

@@ -79,6 +79,10 @@ struct ShapeScratch {
   std::vector<Place> places;
   std::vector<ShapeVote<Dim>> votes;
   std::vector<double> lengths;
+  std::size_t bytes() const {
+    return lengths.capacity() * sizeof(double) + places.capacity() * sizeof(Place) +
+           votes.capacity() * sizeof(ShapeVote<Dim>);
+  }
 };
 
 template <int Dim>

@@ -38,8 +38,8 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
         carry_smoothing<Dim>);
   add("neighbours", {position, velocity, smoothing_length, mass}, {}, neighbours<Dim>);
   if (tensor)
-    add("shapes of H", {position, smoothing_metric, smoothing_length, neighbour_sum},
-        {smoothing_metric, smoothing_length}, vote_shapes<Dim>);
+    add("shapes", {position, mass, smoothing_length, smoothing_metric},
+        {smoothing_length, smoothing_metric, neighbour_sum}, vote_shapes<Dim>);
   if (!continuity)
     add("density", {position, smoothing_length, mass}, {density, neighbour_sum, smoothing_length},
         summation_density<Dim>);
