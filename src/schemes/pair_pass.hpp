@@ -3,6 +3,7 @@
 /// i is minus that of i on j bit for bit, so momentum is exact and nothing depends on the number of threads.
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "particles/pair_lists.hpp"
 #include "particles/particles.hpp"
@@ -19,6 +20,7 @@ struct PairPassSettings {
   bool gradient_correction = false;  ///< make it exact for linear velocity fields
   bool tensor = false;               ///< smoothing tensors instead of lengths (velocity gradients always stored)
   bool coupled = false;              ///< deviator cut off by cracks: tensor damage (always with stress)
+  std::vector<char> cut_by_cracks;   ///< if coupled, by material number: whether its damage tensor cuts pairs
   double viscosity_alpha = 1, viscosity_beta = 2;
   double length_unit = 1;  ///< a power of two near the particle spacing [m]
   Boundary boundary;
@@ -42,8 +44,10 @@ class PairPass {
   /// with the switch of Balsara (1995) and (1/rho_i + 1/rho_j)/2 as its 1/rho. The energy rate is each side's own share
   /// of the work of the pair force, so the two shares of a pair add up to all of it.
   /// Coupled, the deviator of both sides is multiplied by f_ij = 1 - max(n.D_i n, n.D_j n), n the direction of the
-  /// pair, and coupled_gradient is the velocity gradient with the same weights. reads what PairRecord::pack reads;
-  /// writes acceleration, heating, neighbour_sum, approach_speed, velocity_gradient, coupled_gradient.
+  /// pair (D = 0 where a material is not cut), and coupled_gradient is the velocity gradient with the same weights. It
+  /// is always corrected: the weights would make a turning particle with a crack strain and lag behind. reads what
+  /// PairRecord::pack reads; writes acceleration, heating, neighbour_sum, approach_speed, velocity_gradient,
+  /// coupled_gradient.
   virtual void rates(Particles<Dim>& particles, const PairLists<Dim>& lists, std::span<const double> intact) = 0;
 
   virtual std::size_t bytes() const = 0;

@@ -174,7 +174,7 @@ template <class T, int Dim, PassKind Kind, class K>
 void PairPassOf<T, Dim, Kind, K>::rates(Particles<Dim>& particles, const PairLists<Dim>& lists,
                                         std::span<const double> intact) {
   R::pack(particles, lists.images(), settings_.boundary, K::template norm<Dim>, settings_.length_unit, intact,
-          records_);
+          settings_.cut_by_cracks, records_);
   for_clusters(lists, [&](const Cluster& c, auto candidates) { cluster_rates(particles, c, candidates); });
 }
 
@@ -200,7 +200,8 @@ void PairPassOf<T, Dim, Kind, K>::cluster_rates(Particles<Dim>& particles, const
   const T alpha = static_cast<T>(settings_.viscosity_alpha), beta = static_cast<T>(settings_.viscosity_beta);
 
   simd::WideSum<T> acceleration[Dim], viscous_heating;
-  [[maybe_unused]] GradientSum gradient, coupled;
+  [[maybe_unused]] GradientSum gradient;
+  [[maybe_unused]] pair_detail::GradientSum<V, Dim, true> coupled;
   V divergence{}, moment{}, fastest{};
   Partner partners[batch];
   for (std::size_t begin = 0; begin < candidates.size(); begin += batch) {
@@ -289,7 +290,8 @@ void PairPassOf<T, Dim, Kind, K>::cluster_rates(Particles<Dim>& particles, const
 
 template <class T, int Dim, PassKind Kind, class K>
 void PairPassOf<T, Dim, Kind, K>::density(Particles<Dim>& particles, const PairLists<Dim>& lists) {
-  R::pack(particles, lists.images(), settings_.boundary, K::template norm<Dim>, settings_.length_unit, {}, records_);
+  R::pack(particles, lists.images(), settings_.boundary, K::template norm<Dim>, settings_.length_unit, {},
+          settings_.cut_by_cracks, records_);
   for_clusters(lists, [&](const Cluster& c, auto candidates) { cluster_density(particles, c, candidates); });
 }
 

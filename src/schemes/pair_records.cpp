@@ -50,7 +50,8 @@ struct Columns {
 template <class T, int Dim, RecordKind Kind>
 void PairRecord<T, Dim, Kind>::pack(const Particles<Dim>& particles, const std::vector<Image>& images,
                                     const Boundary& boundary, double kernel_norm, double length_unit,
-                                    std::span<const double> intact, std::vector<T>& records) {
+                                    std::span<const double> intact, std::span<const char> cut_by_cracks,
+                                    std::vector<T>& records) {
   using R = PairRecord;
   const std::size_t n = particles.size(), needed = (n + images.size()) * R::size;
   if (records.size() < needed) records.resize(needed + needed / 8);
@@ -103,7 +104,8 @@ void PairRecord<T, Dim, Kind>::pack(const Particles<Dim>& particles, const std::
     }
     if constexpr (Kind.coupled) {
       r[R::pressure] = static_cast<T>(-pressure[i] * per_density2);
-      for (std::size_t k = 0; k < damage.count; ++k) r[R::damage + k] = static_cast<T>(damage(k, i));
+      const bool cut = cut_by_cracks[static_cast<std::size_t>(particles.label(Label::material)[i])];
+      for (std::size_t k = 0; k < damage.count; ++k) r[R::damage + k] = cut ? static_cast<T>(damage(k, i)) : T(0);
     }
   });
   for (std::size_t k = 0; k < images.size(); ++k) {

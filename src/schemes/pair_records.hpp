@@ -44,9 +44,10 @@ struct PairRecord {
   /// Fills one record for each particle, then one for each image. `length_unit` [m] is the unit above.
   /// reads position, velocity, smoothing_length or smoothing_metric, mass, density, pressure, sound_speed, and where
   /// they exist shear_switch, deviatoric_stress, damage_tensor and the fraction of the deviator that damage leaves,
-  /// `intact` (empty: all of it).
+  /// `intact` (empty: all of it). `cut_by_cracks` says by material number whose damage tensors count; others are zero.
   static void pack(const Particles<Dim>& particles, const std::vector<Image>& images, const Boundary& boundary,
-                   double kernel_norm, double length_unit, std::span<const double> intact, std::vector<T>& records);
+                   double kernel_norm, double length_unit, std::span<const double> intact,
+                   std::span<const char> cut_by_cracks, std::vector<T>& records);
 };
 
 /// The power of two just below the length.

@@ -133,7 +133,8 @@ std::unique_ptr<Simulation<Dim>> set_up(const Scene& scene, const std::vector<Ma
   settings.stress = sim->particles.has(Field::deviatoric_stress);
   settings.velocity_gradient = sim->particles.has(Field::velocity_gradient);
   settings.tensor = sim->particles.has(Field::smoothing_metric);
-  settings.coupled = sim->particles.has(Field::damage_tensor);
+  settings.coupled = sim->particles.has(Field::coupled_gradient);
+  for (const Material& m : materials) settings.cut_by_cracks.push_back(m.cuts_pairs());
   settings.gradient_correction = numerics.gradient_correction;
   settings.viscosity_alpha = numerics.viscosity_alpha;
   settings.viscosity_beta = numerics.viscosity_beta;

@@ -17,6 +17,7 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
   const bool grady_kipp = any([](const Material& m) { return m.damage.has_value(); });
   const bool scalar_cracks = any([](const Material& m) { return m.damage && !m.tensor_damage(); });
   const bool tensor_cracks = any([](const Material& m) { return m.tensor_damage(); });
+  const bool coupled = any([](const Material& m) { return m.cuts_pairs(); });
   const bool remembers = any([](const Material& m) { return m.damage && m.damage->remembers_strain(); });
   const bool driven = std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) { return b.driven; });
   const bool continuity = scene.numerics.density == DensityMethod::continuity;
@@ -67,7 +68,9 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
       extended(extended({position, velocity, smoothing_length, mass, density, pressure, sound_speed}, solid,
                         {deviatoric_stress}),
                balsara, {Field::shear_switch}),
-      extended({acceleration, heating, neighbour_sum, approach_speed}, gradient, {velocity_gradient}), pair_rates<Dim>);
+      extended(extended({acceleration, heating, neighbour_sum, approach_speed}, gradient, {velocity_gradient}), coupled,
+               {coupled_gradient}),
+      pair_rates<Dim>);
   if (driven) add("driven bodies", {acceleration, velocity, mass}, {acceleration}, driven_bodies<Dim>);
   if (continuity || solid)
     add("strain rates",
