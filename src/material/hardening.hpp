@@ -35,7 +35,9 @@ PlasticFlow flow(const Model& model, StrengthState state, double trial, double s
     if (std::abs(excess) <= 1e-13 * trial || evaluations == 100) return {point.stress, x, evaluations};
     (excess > 0 ? low : high) = x;
     const double newton = x + excess / (3 * shear + point.by_strain + point.by_rate * per_dt);
-    x = newton > low && newton < high ? newton : 0.5 * (low + high);
+    // The power law of the strain and the logarithm of the rate are steepest at 0, so that a step to the left may go
+    // too far by orders of magnitude.
+    x = newton <= low ? low + (high - low) / 16 : newton < high ? newton : 0.5 * (low + high);
   }
 }
 

@@ -143,7 +143,7 @@ TEST(ReadMaterial, RefusesWithReason) {
   EXPECT_EQ(problems_of_text("[eos]\nmodel = \"ideal_gas\"\ngamma = 1.4\n"),
             One{"m.toml:1: eos.density: missing: of a body whose density the scene does not give"});
   EXPECT_EQ(problems_of_text("[eos]\nmodel = \"jwl\"\ngamma = 1.4\n"),
-            One{"m.toml:2: eos.model: expected one of ideal_gas, tillotson, got \"jwl\""});
+            One{"m.toml:2: eos.model: expected one of ideal_gas, tillotson, mie_grueneisen, linear, got \"jwl\""});
   EXPECT_EQ(
       problems_of_text(tillotson + "[damage]\nmodel = \"grady_kipp\"\nweibull_m = 9\nweibull_k = \"5e34 1/m^3\"\n"),
       One{"m.toml:14: damage.model: needs section [elastic]"});
@@ -185,6 +185,49 @@ TEST(ReadMaterial, RefusesWithReason) {
             One{"m.toml:20: porosity.transition_distension: expected less than reference_distension (4.64)"});
   EXPECT_EQ(changed(tillotson + two_power, "initial_distension = 3", "initial_distension = 0.9"),
             One{"m.toml:15: porosity.initial_distension: expected a number such as 1.5, >= 1, got 0.9"});
+}
+
+TEST(ReadMaterial, MetalsInSi) {
+  const Material steel = read_material("steel_304", {library});
+  const MieGrueneisen& eos = std::get<MieGrueneisen>(steel.eos);
+  EXPECT_EQ(eos.c0, 4570);
+  EXPECT_EQ(eos.melt_exponent, 1.4);
+  EXPECT_EQ(std::get<SteinbergGuinan>(*steel.strength).stiffening, 0.0226e-9);
+  EXPECT_EQ(steel.variable_shear(), &std::get<SteinbergGuinan>(*steel.strength));
+  EXPECT_EQ(steel.damage->weibull_k, 6.52e11);
+  const Material fast = read_material("steel_4340", {library});
+  EXPECT_EQ(std::get<JohnsonCook>(*fast.strength).hardening, 510e6);
+  EXPECT_EQ(fast.variable_shear(), nullptr);
+  const Material tantalum = read_material("tantalum", {library});
+  EXPECT_EQ(warmth(std::get<MieGrueneisen>(tantalum.eos), 16654, 1e9).rise, 0) << "no heat capacity: never warms";
+  EXPECT_EQ(read_material("rubber", {library}).elastic->shear_modulus, 161.2959e6);
+}
+
+TEST(ReadMaterial, RefusesMetalsThatCannotBe) {
+  const auto steel = [](const std::string& overrides) {
+    return problems_of([&] { read_material("steel_304", {library}, parse_document(overrides, "s")); });
+  };
+  EXPECT_EQ(steel("[eos]\neta_max = 3.5\n"),
+            One{"s:2: eos.eta_max: expected less than 3.05, where cold pressure no longer grows with density for "
+                "these S1, S2, S3, gamma0 and b"});
+  EXPECT_EQ(steel("[eos]\nmelt_temperature = \"200 K\"\n"),
+            One{"s:2: eos.melt_temperature: expected more than reference_temperature (300 K)"});
+  EXPECT_EQ(steel("[strength]\nyield_limit = \"0.25 GPa\"\n"),
+            One{"s:2: strength.yield_limit: expected at least the yield stress (340 MPa)"});
+  const auto tantalum = [](const std::string& strength) {
+    return problems_of([&] { read_material("tantalum", {library}, parse_document("[strength]\n" + strength, "s")); });
+  };
+  EXPECT_EQ(tantalum("softening = \"1e-4 1/K\"\n").size(), 1u);
+  EXPECT_EQ(tantalum("model = \"johnson_cook\"\nyield_stress = \"1 GPa\"\nhardening = \"1 GPa\"\n"
+                     "hardening_exponent = 0.3\nrate_factor = 0.01\nsoftening_exponent = 1\n")
+                .size(),
+            2u);
+  EXPECT_EQ(problems_of_text(tillotson + elastic +
+                             "[strength]\nmodel = \"steinberg_guinan\"\nyield_stress = \"1 GPa\"\nyield_limit = "
+                             "\"2 GPa\"\nhardening = 1\nhardening_exponent = 1\n"),
+            One{"m.toml:17: strength.model: needs the temperature of eos.model = \"mie_grueneisen\""});
+  EXPECT_EQ(problems_of_text("[eos]\nmodel = \"linear\"\ndensity = \"1 g/cm^3\"\n"),
+            One{"m.toml:1: eos.c0: missing: sound speed"});
 }
 
 TEST(ReadMaterials, RefusesWhatBodiesCannotHave) {
@@ -232,7 +275,7 @@ TEST(ShippedMaterials, AreAccepted) {
     EXPECT_NO_THROW({ EXPECT_GT(read_material(name, {library}).bulk_density(), 0); }) << name;
     ++count;
   }
-  EXPECT_GE(count, 20);
+  EXPECT_GE(count, 28);
 }
 
 TEST(ShippedMaterials, EchoEveryConstantTheyWereGiven) {
@@ -248,11 +291,29 @@ TEST(ShippedMaterials, EchoEveryConstantTheyWereGiven) {
 
 TEST(Reference, NamesEveryConstantAndEveryModel) {
   const std::string text = reference();
-  for (const std::string key :
-       {"gamma", "E_iv", "yield_stress", "friction_angle", "damaged_cohesion", "limit", "melt_energy", "weibull_k",
-        "crack_speed_factor", "transition_pressure", "n2", "crush_damage", "shear_modulus", "spacing", "frames"})
+  for (const std::string key : {"gamma",
+                                "E_iv",
+                                "yield_stress",
+                                "friction_angle",
+                                "damaged_cohesion",
+                                "limit",
+                                "melt_energy",
+                                "weibull_k",
+                                "crack_speed_factor",
+                                "transition_pressure",
+                                "n2",
+                                "crush_damage",
+                                "shear_modulus",
+                                "spacing",
+                                "frames",
+                                "melt_exponent",
+                                "eta_max",
+                                "stiffening",
+                                "rate_factor",
+                                "c0"})
     EXPECT_NE(text.find("\n  " + key + " "), std::string::npos) << key;
-  for (const std::string model : {"collins", "two_power", "quadratic", "ideal_gas", "grady_kipp", "grady_kipp_tensor"})
+  for (const std::string model : {"collins", "two_power", "quadratic", "ideal_gas", "grady_kipp", "grady_kipp_tensor",
+                                  "mie_grueneisen", "linear", "steinberg_guinan", "johnson_cook"})
     EXPECT_NE(text.find(": " + model), std::string::npos) << model;
 }
 

@@ -39,7 +39,7 @@ TEST(Strength, LundborgRunsFromCohesionToItsLimit) {
   EXPECT_DOUBLE_EQ(granite.yield({-1e9, 0}), sqrt3 * 90e6);
   EXPECT_NEAR(granite.yield({1e16, 0}), sqrt3 * 1.5e9, 1e3);
   EXPECT_NEAR((granite.yield({1.0, 0}) - granite.yield({0, 0})) / sqrt3, 2.0, 1e-6);  // initial slope mu
-  EXPECT_NEAR(granite.yield({705e6, 0}) / sqrt3, 90e6 + 705e6, 1);                  // half way where mu P = Y_max - c
+  EXPECT_NEAR(granite.yield({705e6, 0}) / sqrt3, 90e6 + 705e6, 1);                    // half way where mu P = Y_max - c
   EXPECT_DOUBLE_EQ(granite.intact_fraction(0.25), 0.75);
 }
 
