@@ -1,9 +1,10 @@
-"""Hugoniots: a bar of every material that has Tillotson's equation of state, thrown at a wall."""
+"""Hugoniots: a bar of every material that has Tillotson's or Mie and Grueneisen's equation of state, at a wall."""
 import tomllib
 
 import numpy as np
 
 from exact.hugoniot import Shock, from_library
+from exact.mie_grueneisen import MieGrueneisen
 from exact.tillotson import Tillotson
 from harness import Bound, Case, binned, fall, l1, relative
 from harness.run import SOURCE
@@ -13,6 +14,7 @@ SPEEDS = 500, 1000, 2000  # m/s
 LIBRARY = SOURCE / "inputs" / "materials"
 EQUATIONS = {file.stem: eos for file in sorted(LIBRARY.glob("*.toml"))
              if (eos := tomllib.loads(file.read_text())["eos"])["model"] == "tillotson"}
+METALS = {name: tomllib.loads((LIBRARY / f"{name}.toml").read_text())["eos"] for name in ("steel_304", "copper_ofhc")}
 
 # Shock speed [m/s], pressure [GPa] and, where given, density [kg/m^3] worked out by another program.
 PRINTED = {
@@ -30,6 +32,7 @@ class Hugoniot(Case):
     exact = "jump conditions of Rankine and Hugoniot with Tillotson's equation of state, constants of the run"
     full = (50, 100, 200)
     boost = "y"
+    equation, densest = Tillotson, 20
     bounds = (
         Bound("plateau pressure", "relative", {50: 0.022, 100: 0.005, 200: 0.005}, why="1 % is asked; what is left "
               "beyond 100 particles is no longer the width of the shock but the spacing behind it, so no order"),
@@ -52,10 +55,13 @@ class Hugoniot(Case):
             self.rotation = self.boost = self.mixed_margin = "shown with basalt at 1000 m/s; only constants differ"
 
     def settings(self, resolution):
+        constants = {f"materials.fluid.eos.{key}": value for key, value in EQUATIONS[self.material].items()}
+        return {**constants, **self.geometry(resolution)}
+
+    def geometry(self, resolution):
         spacing = LENGTH / resolution
         width = ROWS * spacing
-        constants = {f"materials.fluid.eos.{key}": value for key, value in EQUATIONS[self.material].items()}
-        return {**constants, "resolution.spacing": (spacing, "m"), "bodies.bar.size": (LENGTH, width, "m"),
+        return {"resolution.spacing": (spacing, "m"), "bodies.bar.size": (LENGTH, width, "m"),
                 "bodies.bar.velocity": (-self.speed, 0, "m/s"),
                 "boundary.min": (0, -width / 2, "m"), "boundary.max": (1.5 * LENGTH, width / 2, "m"),
                 "time.end": (0.7 * LENGTH / self.shock.speed, "s")}
@@ -63,7 +69,7 @@ class Hugoniot(Case):
     def errors(self, run, resolution):
         """Profiles relative to the jump and over the whole bar; the plateau without the wall and the shock itself."""
         state = run.final
-        shock = Shock.behind_piston(Tillotson.of(run.scene, "fluid"), self.speed)
+        shock = Shock.behind_piston(self.equation.of(run.scene, "fluid"), self.speed, self.densest)
         x, front = state["position"][:, 0], (shock.speed - self.speed) * state.time
         behind = x < front
         rho0 = shock.density * (1 - self.speed / shock.speed)
@@ -90,4 +96,31 @@ class Hugoniot(Case):
             assert np.allclose(found[:len(printed)], printed, rtol=5e-4), (found, printed)
 
 
+class MetalHugoniot(Hugoniot):
+    """Mie and Grueneisen's equation of state, whose Hugoniot is known in closed form."""
+    scene = "metal.toml"
+    equation, densest = MieGrueneisen, 1.5
+    exact = "us = c0 + S1 up, P = rho0 us up"
+
+    def __init__(self, material, speed):
+        self.material, self.speed = material, speed
+        self.name = f"hugoniot_{material}_{speed}"
+        self.title = f"{material} at a particle speed of {speed} m/s"
+        eos = METALS[material]
+        self.constants = {key: eos.get(key, 0) for key in MieGrueneisen.__dataclass_fields__}
+        self.shock = Shock.behind_piston(from_library(self.constants, MieGrueneisen), speed, self.densest)
+        self.quick = (100,) if speed == 1000 else ()
+        self.rotation = self.boost = self.mixed_margin = "shown with basalt at 1000 m/s; only the equation differs"
+
+    def settings(self, resolution):
+        constants = {f"materials.fluid.eos.{key}": value for key, value in self.constants.items()}
+        return {**constants, **self.geometry(resolution)}
+
+    def check_exact(self):
+        eos = from_library(self.constants, MieGrueneisen)
+        speed = eos.c0 + eos.S1 * self.speed
+        assert np.allclose((self.shock.speed, self.shock.pressure), (speed, eos.density * speed * self.speed), rtol=1e-9)
+
+
 CASES = [Hugoniot(material, speed) for material in EQUATIONS for speed in SPEEDS]
+CASES += [MetalHugoniot(material, speed) for material in METALS for speed in SPEEDS]
