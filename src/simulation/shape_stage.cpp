@@ -1,4 +1,3 @@
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -49,13 +48,8 @@ void mirror_votes(Simulation<Dim>& sim) {
   const std::size_t n = sim.particles.size();
   for (std::size_t k = 0; k < images.size(); ++k) {
     auto& vote = sim.shape_scratch.votes[n + k] = sim.shape_scratch.votes[images[k].source];
-    Mat<Dim> m = matrix_of<Dim>(vote.log_covariance);
     for (int a = 0; a < Dim; ++a)
-      if (images[k].mirror[a] != 0) {
-        m.row(a) = -m.row(a).eval();
-        m.col(a) = -m.col(a).eval();
-      }
-    vote.log_covariance = symmetric_of<Dim>(m);
+      if (images[k].mirror[a] != 0) mirror_symmetric<Dim>(vote.log_covariance.data(), a);
   }
 }
 

@@ -137,6 +137,17 @@ TEST(IdealHLimits, CrowdsKeepTheNearest) {
   }
 }
 
+TEST(IdealHLimits, ANeighbourOnTheSamePlaceHasNoSay) {
+  const auto vote_of = [](std::vector<Vec<2>> nodes) {
+    FirstShell<2> shell(Mat<2>::Identity() / 2.25, 1.5, 2);
+    for (const auto& x : nodes) shell.add(x);
+    return shell.vote(2);
+  };
+  const ShapeVote<2> without = vote_of({{1.2, 0}, {0, 1}, {-1.1, 0}, {0, -1}}),
+                     with = vote_of({{1.2, 0}, {0, 1}, {-1.1, 0}, {0, -1}, {1e-9, 0}});
+  EXPECT_EQ(with.log_covariance, without.log_covariance);
+}
+
 /// Neighbourhoods of all kinds, also such as no run should ever see.
 template <int Dim>
 struct Hazard {
