@@ -189,6 +189,7 @@ def pick(data, output, field, behind):
         radius[values == 0] *= 0.25
         values = numpy.where(values == largest_fragment, 1, numpy.where(values == 0, 0, 2 + values % PALETTE))
 
+    output.Initialize()  # it comes with the cells of the input
     output.SetPoints(vtkPoints())
     output.GetPoints().SetData(numpy_to_vtk(points, deep=True))
     for name, values in (("radius", radius), (field, values.astype(numpy.float32))):

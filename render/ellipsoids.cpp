@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
+#include "particles/smoothing_metric.hpp"
 
 namespace ejecta {
 
@@ -29,8 +30,7 @@ struct Eigensystem {
 template <int Dim>
 Mat<Dim> smoothing_metric(const Particles<Dim>& p, std::size_t i) {
   if (p.has(Field::smoothing_metric)) return p.symmetric(Field::smoothing_metric, i);
-  const double h = p.column(Field::smoothing_length)[i];
-  return Mat<Dim>::Identity() / (h * h);
+  return round_metric<Dim>(p.column(Field::smoothing_length)[i]);
 }
 
 std::string numbered(std::string_view name, int k) { return std::string(name) + "_" + std::to_string(k + 1); }

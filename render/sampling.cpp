@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "base/parallel.hpp"
+#include "particles/smoothing_metric.hpp"
 #include "render/footprint.hpp"
 
 namespace ejecta {
@@ -115,8 +116,7 @@ std::size_t pixels(const PixelGrid& grid) {
 
 template <int Dim>
 Mat<Dim> ParticleView::metric(std::size_t i) const {
-  const double h = smoothing_length[i];
-  if (smoothing_metric[0].empty()) return Mat<Dim>::Identity() / (h * h);
+  if (smoothing_metric[0].empty()) return round_metric<Dim>(smoothing_length[i]);
   Symmetric<Dim> g;
   for (int k = 0; k < symmetric_size<Dim>; ++k) g[k] = smoothing_metric[static_cast<std::size_t>(k)][i];
   return matrix_of<Dim>(g);

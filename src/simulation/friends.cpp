@@ -7,6 +7,8 @@
 #include <limits>
 #include <numeric>
 
+#include "particles/smoothing_metric.hpp"
+
 namespace ejecta {
 
 namespace {
@@ -94,7 +96,7 @@ class LinkBySupport {
       reach_[i] = std::sqrt(metric_[i].inverse().diagonal().maxCoeff());
       if (std::isnormal(reach_[i])) continue;
       reach_[i] = b * in.particle_size(i);  // H of a failing run may be broken
-      metric_[i] = Mat<3>::Identity() / (reach_[i] * reach_[i]);
+      metric_[i] = round_metric<3>(reach_[i]);
     }
   }
   double reach(std::size_t i) const { return reach_[i]; }
@@ -105,7 +107,7 @@ class LinkBySupport {
  private:
   static Mat<3> metric_of(const FragmentInput& in, std::size_t i) {
     const auto& g = in.smoothing_metric;
-    if (g[0].empty()) return Mat<3>::Identity() / (in.smoothing_length[i] * in.smoothing_length[i]);
+    if (g[0].empty()) return round_metric<3>(in.smoothing_length[i]);
     if (in.dimension() == 3)
       return matrix_of<3>((Symmetric<3>() << g[0][i], g[1][i], g[2][i], g[3][i], g[4][i], g[5][i]).finished());
     Mat<3> metric =

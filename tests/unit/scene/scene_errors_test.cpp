@@ -119,8 +119,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{"boundary_inside_out", "",
                  "[boundary]\ny = \"periodic\"\nmin = [0, \"1 m\", 0]\nmax = [0, \"-1 m\", 0]\n",
                  "s.toml:18: boundary.y: expected boundary.min < boundary.max along y, got 1 m and -1 m"},
-        BadScene{"missing_pipeline", "", "[insitu]\npipelines = [\"no.py\"]\n",
-                 "s.toml:18: insitu.pipelines: expected a script, got \"no.py\": no such file no.py"}),
+        BadScene{
+            "missing_pipeline", "", "[insitu]\npipelines = [\"no.py\"]\n",
+            "s.toml:18: insitu.pipelines: expected a script, got \"no.py\": no such file no.py, nor " EJECTA_SOURCE_DIR
+            "/catalyst_scripts/no.py"}),
     [](const auto& info) { return info.param.label; });
 
 TEST(RefusesScenes, TwoDimensional) {

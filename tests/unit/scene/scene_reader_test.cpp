@@ -1,8 +1,11 @@
 #include "scene/scene_reader.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include "scene/describe.hpp"
 #include "scene/names.hpp"
@@ -152,6 +155,17 @@ TEST(ShippedScenes, AreAccepted) {
     ++count;
   }
   EXPECT_GE(count, 4);
+}
+
+TEST(SceneReader, FindsPipelinesBesideTheSceneAndThenAmongTheShippedOnes) {
+  const auto folder = std::filesystem::temp_directory_path() / fmt::format("ejecta_pipelines_{}", ::getpid());
+  std::filesystem::create_directories(folder);
+  for (const char* name : {"mine.py", "slice.py"}) std::ofstream(folder / name) << "# script-version: 2.0\n";
+  const std::string list = "[insitu]\npipelines = [\"default\", \"mine.py\", \"slice.py\", \"ellipses.py\"]\n";
+  const Scene scene = parse_scene(valid_scene + list, (folder / "s.toml").string());
+  std::filesystem::remove_all(folder);
+  EXPECT_EQ(scene.insitu.pipelines, (std::vector<std::string>{"default", folder / "mine.py", folder / "slice.py",
+                                                              EJECTA_SOURCE_DIR "/catalyst_scripts/ellipses.py"}));
 }
 
 }  // namespace
