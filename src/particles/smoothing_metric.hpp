@@ -29,9 +29,15 @@ struct Axes {
 };
 template <int Dim>
 Axes axes_of(const Mat<Dim>& metric) {
-  Eigen::SelfAdjointEigenSolver<Mat<Dim>> solver;
-  solver.computeDirect(metric, Eigen::EigenvaluesOnly);
-  return {1 / std::sqrt(solver.eigenvalues()[Dim - 1]), 1 / std::sqrt(solver.eigenvalues()[0])};
+  if constexpr (Dim == 2) {
+    const double mean = 0.5 * metric.trace(), spread = std::hypot(0.5 * (metric(0, 0) - metric(1, 1)), metric(0, 1));
+    const double largest = mean + spread;  // the product of the two does not cancel as their difference would
+    return {1 / std::sqrt(largest), std::sqrt(largest / metric.determinant())};
+  } else {
+    Eigen::SelfAdjointEigenSolver<Mat<Dim>> solver;
+    solver.computeDirect(metric, Eigen::EigenvaluesOnly);
+    return {1 / std::sqrt(solver.eigenvalues()[Dim - 1]), 1 / std::sqrt(solver.eigenvalues()[0])};
+  }
 }
 
 /// The metric carried along by a velocity gradient L_ab = dv_a/dx_b [1/s] for a time dt [s]: G' = A^T G A with

@@ -19,7 +19,7 @@ struct PairPassSettings {
   bool velocity_gradient = false;    ///< store dv_a/dx_b (always with stress)
   bool gradient_correction = false;  ///< make it exact for linear velocity fields
   bool tensor = false;               ///< smoothing tensors instead of lengths (velocity gradients always stored)
-  bool coupled = false;              ///< deviator cut off by cracks: tensor damage (always with stress)
+  bool coupled = false;              ///< tensor damage cuts the stress (always with stress)
   std::vector<char> cut_by_cracks;   ///< if coupled, by material number: whether its damage tensor cuts pairs
   double viscosity_alpha = 1, viscosity_beta = 2;
   double length_unit = 1;  ///< a power of two near the particle spacing [m]
@@ -43,10 +43,11 @@ class PairPass {
   /// [Monaghan 2005, eqs 2.37, 3.3; Randles & Libersky 1996 for the correction]; Pi is Monaghan's viscosity (1992),
   /// with the switch of Balsara (1995) and (1/rho_i + 1/rho_j)/2 as its 1/rho. The energy rate is each side's own share
   /// of the work of the pair force, so the two shares of a pair add up to all of it.
-  /// Coupled, the deviator of both sides is multiplied by f_ij = 1 - max(n.D_i n, n.D_j n), n the direction of the
-  /// pair (D = 0 where a material is not cut), and coupled_gradient is the velocity gradient with the same weights. It
-  /// is always corrected: the weights would make a turning particle with a crack strain and lag behind. reads what
-  /// PairRecord::pack reads; writes acceleration, heating, neighbour_sum, approach_speed, velocity_gradient,
+  /// Coupled, S is what cracks let through (cracked_stress.hpp), and coupled_gradient is the velocity gradient summed
+  /// with weights f_ij = 1 - max(n.D_i n, n.D_j n), n the direction of the pair (D = 0 where a material is not cut): an
+  /// opening crack does not strain the matter beside it. It is always corrected, so that cracked matter turns with its
+  /// body.
+  /// Reads what PairRecord::pack reads; writes acceleration, heating, neighbour_sum, approach_speed, velocity_gradient,
   /// coupled_gradient.
   virtual void rates(Particles<Dim>& particles, const PairLists<Dim>& lists, std::span<const double> intact) = 0;
 

@@ -183,7 +183,7 @@ void PairPassOf<T, Dim, Kind, K>::cluster_rates(Particles<Dim>& particles, const
                                                 std::span<const std::uint32_t> candidates) const {
   const T* records = records_.data();
   auto load = [&](int place) { return pair_detail::load<V>(c, records, R::size, place); };
-  V x[Dim], x_low[Dim], v[Dim], stress[R::stresses], pressure{}, damage[symmetric_size<Dim>];
+  V x[Dim], x_low[Dim], v[Dim], stress[R::stresses], damage[symmetric_size<Dim>];
   for (int a = 0; a < Dim; ++a) {
     x[a] = load(R::x + a);
     if constexpr (R::split) x_low[a] = load(R::x_low + a);
@@ -191,7 +191,6 @@ void PairPassOf<T, Dim, Kind, K>::cluster_rates(Particles<Dim>& particles, const
   }
   for (int s = 0; s < R::stresses; ++s) stress[s] = load(R::stress + s);
   if constexpr (Kind.coupled) {
-    pressure = load(R::pressure);
     for (int s = 0; s < symmetric_size<Dim>; ++s) damage[s] = load(R::damage + s);
   }
   const Support support{load};
@@ -231,17 +230,9 @@ void PairPassOf<T, Dim, Kind, K>::cluster_rates(Particles<Dim>& particles, const
                           (T(0.5) * (density_reciprocal + j[R::density_reciprocal])) *
                           (mu * (beta * mu - alpha * sound));
       // sigma_i/rho_i^2 + sigma_j/rho_j^2 - Pi I
-      V total[R::stresses], force[Dim], intact{};
+      V total[R::stresses], force[Dim];
       for (int s = 0; s < R::stresses; ++s) total[s] = stress[s] + j[R::stress + s];
-      V isotropic = -viscosity;
-      if constexpr (Kind.coupled) {
-        // A crack of either side across the line of the pair takes the deviator off it: f = 1 - max(n.D_i n, n.D_j n).
-        const V across = simd::max(pair_detail::along<Dim>(damage, p.dx), pair_detail::along<Dim>(j + R::damage, p.dx));
-        intact = simd::max(V(T(1) - across * simd::reciprocal(V(p.r2 + support_detail::guard<T>))), V{});
-        for (int s = 0; s < R::stresses; ++s) total[s] *= intact;
-        isotropic += pressure + j[R::pressure];
-      }
-      for (int s = 0; s < (Kind.stress ? Dim : 1); ++s) total[s] += isotropic;
+      for (int s = 0; s < (Kind.stress ? Dim : 1); ++s) total[s] -= viscosity;
       pair_detail::contract<Kind.stress, Dim>(total, kernel_gradient, force);
 
       const T mass = j[R::mass];
@@ -252,6 +243,10 @@ void PairPassOf<T, Dim, Kind, K>::cluster_rates(Particles<Dim>& particles, const
         for (int b = 0; b < Dim; ++b) weighted[b] = mass * kernel_gradient[b];
         gradient.add(p.dx, dv, weighted);
         if constexpr (Kind.coupled) {
+          const V across =
+              simd::max(pair_detail::along<Dim>(damage, p.dx), pair_detail::along<Dim>(j + R::damage, p.dx)) *
+              simd::reciprocal(V(p.r2 + support_detail::guard<T>));
+          const V intact = simd::max(V(T(1) - across), V{});
           for (int b = 0; b < Dim; ++b) weighted[b] *= intact;
           coupled.add(p.dx, dv, weighted);
         }
@@ -272,13 +267,9 @@ void PairPassOf<T, Dim, Kind, K>::cluster_rates(Particles<Dim>& particles, const
     if constexpr (Kind.gradient) {
       const double specific_volume = 1 / particles.column(Field::density)[i];
       pair_detail::store(particles, Field::velocity_gradient, i, gradient.gradient(k, per_unit, specific_volume));
-      if constexpr (Kind.coupled) {
+      if constexpr (Kind.coupled)
         pair_detail::store(particles, Field::coupled_gradient, i, coupled.gradient(k, per_unit, specific_volume));
-        work = pair_detail::double_contract<true, Dim>(own_stress, coupled.raw(k, per_unit)) +
-               static_cast<double>(pressure[k]) * gradient.raw(k, per_unit).trace();
-      } else {
-        work = pair_detail::double_contract<Kind.stress, Dim>(own_stress, gradient.raw(k, per_unit));
-      }
+      work = pair_detail::double_contract<Kind.stress, Dim>(own_stress, gradient.raw(k, per_unit));
     } else {
       work = own_stress[0] * (static_cast<double>(divergence[k]) * per_unit);
     }

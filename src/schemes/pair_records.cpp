@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
+#include "schemes/cracked_stress.hpp"
 
 namespace ejecta {
 
@@ -90,22 +91,23 @@ void PairRecord<T, Dim, Kind>::pack(const Particles<Dim>& particles, const std::
     if constexpr (!Kind.stress) {
       r[R::stress] = static_cast<T>(-pressure[i] * per_density2);
     } else {
-      const double scale = intact.empty() ? 1.0 : intact[i], own_pressure = Kind.coupled ? 0.0 : pressure[i];
+      const double scale = intact.empty() ? 1.0 : intact[i];
       auto deviator = [&](std::size_t k) { return scale * deviatoric_stress(k, i); };
-      T* s = r + R::stress;
-      s[0] = static_cast<T>((deviator(0) - own_pressure) * per_density2);
-      s[1] = static_cast<T>((deviator(1) - own_pressure) * per_density2);
-      if constexpr (Dim == 2) {
-        s[2] = static_cast<T>(deviator(2) * per_density2);
-      } else {
-        s[2] = static_cast<T>((-deviator(0) - deviator(1) - own_pressure) * per_density2);
-        for (std::size_t k = 2; k < 5; ++k) s[k + 1] = static_cast<T>(deviator(k) * per_density2);
+      Symmetric<Dim> sigma;
+      if constexpr (Dim == 2)
+        sigma << deviator(0), deviator(1), deviator(2);
+      else
+        sigma << deviator(0), deviator(1), -deviator(0) - deviator(1), deviator(2), deviator(3), deviator(4);
+      if constexpr (Kind.coupled) {
+        Symmetric<Dim> cracks = Symmetric<Dim>::Zero();
+        if (cut_by_cracks[static_cast<std::size_t>(particles.label(Label::material)[i])])
+          for (std::size_t k = 0; k < damage.count; ++k) cracks[static_cast<int>(k)] = damage(k, i);
+        if (!cracks.isZero(0))
+          sigma = symmetric_of<Dim>(transmitted<Dim>(matrix_of<Dim>(sigma), matrix_of<Dim>(cracks)));
+        for (int k = 0; k < symmetric_size<Dim>; ++k) r[R::damage + k] = static_cast<T>(cracks[k]);
       }
-    }
-    if constexpr (Kind.coupled) {
-      r[R::pressure] = static_cast<T>(-pressure[i] * per_density2);
-      const bool cut = cut_by_cracks[static_cast<std::size_t>(particles.label(Label::material)[i])];
-      for (std::size_t k = 0; k < damage.count; ++k) r[R::damage + k] = cut ? static_cast<T>(damage(k, i)) : T(0);
+      for (int a = 0; a < Dim; ++a) sigma[a] -= pressure[i];
+      for (int k = 0; k < symmetric_size<Dim>; ++k) r[R::stress + k] = static_cast<T>(sigma[k] * per_density2);
     }
   });
   for (std::size_t k = 0; k < images.size(); ++k) {

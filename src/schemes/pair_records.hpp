@@ -13,7 +13,7 @@ namespace ejecta {
 struct RecordKind {
   bool stress = false;   ///< the stress tensor, not pressure alone
   bool tensor = false;   ///< the smoothing metric, not a smoothing length
-  bool coupled = false;  ///< damage tensor; pressure and deviator apart (only with stress)
+  bool coupled = false;  ///< the damage tensor (only with stress)
 };
 
 /// Places within a record. T is the precision of the pass. Lengths are in units of a power of two near the particle
@@ -35,11 +35,10 @@ struct PairRecord {
   static constexpr int density_reciprocal = mass + 1;                                   ///< 1/rho
   static constexpr int sound_speed = density_reciprocal + 1;
   static constexpr int shear_switch = sound_speed + 1;
-  /// sigma/rho^2 with sigma = -P I + S, or -P/rho^2 alone; if coupled: S/rho^2
+  /// sigma/rho^2 with sigma = -P I + S, S as cracks leave it, or -P/rho^2 alone
   static constexpr int stress = shear_switch + 1;
-  static constexpr int pressure = stress + stresses;  ///< -P/rho^2, if coupled
-  static constexpr int damage = pressure + 1;         ///< damage tensor, if coupled
-  static constexpr int size = stress + stresses + (Kind.coupled ? 1 + symmetric_size<Dim> : 0);
+  static constexpr int damage = stress + stresses;  ///< damage tensor, if coupled
+  static constexpr int size = stress + stresses + (Kind.coupled ? symmetric_size<Dim> : 0);
 
   /// Fills one record for each particle, then one for each image. `length_unit` [m] is the unit above.
   /// reads position, velocity, smoothing_length or smoothing_metric, mass, density, pressure, sound_speed, and where
