@@ -109,7 +109,7 @@ def colour_range(field, source):
         given = settings()["ranges"].get(field)
         if given is None:
             given = NATURAL_RANGES.get(field)
-        if given is None:
+        if given is None or not given[1] > given[0]:  # a scene at rest leaves the run nothing to tell a range from
             array = data_of(source).GetPointData().GetArray(field)
             low, high = array.GetFiniteRange(-1 if array.GetNumberOfComponents() > 1 else 0)
             given = (low, high) if high > low else (low, low + max(abs(low), 1.0))
