@@ -28,11 +28,20 @@ CheckpointView checkpoint_view(const Simulation<Dim>& sim, const std::string& re
   view.scene = resolved;
   const Totals& t = sim.initial;
   const ExternalLoad& e = sim.external;
-  view.scalars = {{"wall_seconds", sim.wall_seconds},    {"initial_mass", t.mass},
-                  {"initial_kinetic", t.kinetic},        {"initial_internal", t.internal},
-                  {"initial_scale", t.momentum_scale},   {"initial_momentum_x", t.momentum[0]},
-                  {"initial_momentum_y", t.momentum[1]}, {"initial_momentum_z", t.momentum[2]},
-                  {"external_power", e.power},           {"external_work", e.work}};
+  view.scalars = {{"wall_seconds", sim.wall_seconds},
+                  {"initial_mass", t.mass},
+                  {"initial_kinetic", t.kinetic},
+                  {"initial_internal", t.internal},
+                  {"initial_angular_momentum_x", t.angular_momentum[0]},
+                  {"initial_angular_momentum_y", t.angular_momentum[1]},
+                  {"initial_angular_momentum_z", t.angular_momentum[2]},
+                  {"initial_angular_scale", t.angular_scale},
+                  {"initial_scale", t.momentum_scale},
+                  {"initial_momentum_x", t.momentum[0]},
+                  {"initial_momentum_y", t.momentum[1]},
+                  {"initial_momentum_z", t.momentum[2]},
+                  {"external_power", e.power},
+                  {"external_work", e.work}};
   for (int a = 0; a < Dim; ++a) {
     view.scalars[fmt::format("external_force_{}", a)] = e.force[a];
     view.scalars[fmt::format("external_impulse_{}", a)] = e.impulse[a];
@@ -72,6 +81,9 @@ void restore(Simulation<Dim>& sim, const Checkpoint& c) {
   t.kinetic = c.scalar("initial_kinetic");
   t.internal = c.scalar("initial_internal");
   t.momentum_scale = c.scalar("initial_scale");
+  t.angular_scale = c.scalar("initial_angular_scale");
+  t.angular_momentum = {c.scalar("initial_angular_momentum_x"), c.scalar("initial_angular_momentum_y"),
+                        c.scalar("initial_angular_momentum_z")};
   t.momentum = {c.scalar("initial_momentum_x"), c.scalar("initial_momentum_y"), c.scalar("initial_momentum_z")};
   sim.external.power = c.scalar("external_power");
   sim.external.work = c.scalar("external_work");

@@ -90,6 +90,9 @@ Summary summarise(const Simulation<Dim>& sim, const Frames<Dim>& frames, const f
   s.peak_rss_mb = static_cast<double>(usage.ru_maxrss) / 1024;
   s.mass_error_rel = errors.mass;
   s.momentum_error_rel = errors.momentum;
+  const auto pushed = [](const Body& body) { return body.driven; };
+  if (!bounded(sim.scene.boundary) && std::ranges::none_of(sim.scene.bodies, pushed))
+    s.angular_momentum_error_rel = errors.angular_momentum;
   s.energy_error_rel = errors.energy;
   if (sim.scene.numerics.scheme == SchemeKind::asph) {
     s.shape_votes = sim.shape_report.votes;

@@ -29,6 +29,7 @@ std::string summary_json(const Summary& s) {
   add("peak_rss_mb", s.peak_rss_mb);
   add("mass_error_rel", s.mass_error_rel);
   add("momentum_error_rel", s.momentum_error_rel);
+  add("angular_momentum_error_rel", s.angular_momentum_error_rel);
   add("energy_error_rel", s.energy_error_rel);
   add("shape_votes", s.shape_votes);
   add("shape_few_neighbours", s.shape_few_neighbours);

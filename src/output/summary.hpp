@@ -20,6 +20,7 @@ struct Summary {
   std::optional<double> particle_steps_per_s, pair_interactions_per_s, neighbours_mean;
   std::optional<double> bytes_per_particle, peak_rss_mb;
   std::optional<double> mass_error_rel, momentum_error_rel, energy_error_rel;
+  std::optional<double> angular_momentum_error_rel;  ///< not with boundaries or driven bodies, which exert torque
   /// ASPH: particles times votes on the shape of H, and in how many of them a limit acted.
   std::optional<std::int64_t> shape_votes, shape_few_neighbours, shape_limited_change, shape_largest_aspect;
   std::optional<std::int64_t> images;

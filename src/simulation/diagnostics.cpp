@@ -14,6 +14,7 @@ Totals& Totals::operator+=(const Totals& o) {
   momentum += o.momentum;
   angular_momentum += o.angular_momentum;
   momentum_scale += o.momentum_scale;
+  angular_scale += o.angular_scale;
   kinetic += o.kinetic;
   internal += o.internal;
   return *this;
@@ -31,6 +32,7 @@ Totals totals(const Particles<Dim>& particles) {
     t.momentum = mass[i] * v;
     t.angular_momentum = mass[i] * x.cross(v);
     t.momentum_scale = mass[i] * v.norm();
+    t.angular_scale = x.norm() * t.momentum_scale;
     t.kinetic = 0.5 * mass[i] * v.squaredNorm();
     t.internal = mass[i] * energy[i];
     return t;
@@ -67,6 +69,8 @@ ConservationErrors conservation_errors(const Totals& initial, const Totals& now,
   return {relative(std::abs(now.mass - initial.mass), initial.mass),
           relative((now.momentum - initial.momentum - external.impulse).norm(),
                    std::max(initial.momentum_scale, now.momentum_scale)),
+          relative((now.angular_momentum - initial.angular_momentum).norm(),
+                   std::max(initial.angular_scale, now.angular_scale)),
           relative(now.energy() - initial.energy() - external.work,
                    std::max({std::abs(initial.energy()), initial.kinetic, std::abs(external.work)}))};
 }

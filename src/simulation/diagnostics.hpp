@@ -12,6 +12,7 @@ struct Totals {
   Vec<3> momentum = Vec<3>::Zero();          ///< kg m/s
   Vec<3> angular_momentum = Vec<3>::Zero();  ///< about the origin [kg m^2/s]
   double momentum_scale = 0;                 ///< sum |m v|, to measure momentum errors against [kg m/s]
+  double angular_scale = 0;                  ///< sum |x| |m v|, the same for angular momentum [kg m^2/s]
   double kinetic = 0, internal = 0;          ///< J
   double energy() const { return kinetic + internal; }
   Totals& operator+=(const Totals& o);
@@ -41,8 +42,10 @@ void add_step(ExternalLoad& total, const ExternalLoad& before, const ExternalLoa
 
 /// Relative errors of what must not change but by external loads.
 struct ConservationErrors {
-  double mass, momentum, energy;
+  double mass, momentum, angular_momentum, energy;
 };
+/// Angular momentum knows nothing of faces and driven bodies: its error means something only without them. Pair forces
+/// along the pair conserve it; stress, tensor smoothing and corrected gradients turn them out of that line.
 /// Energy is measured against the largest of total energy and kinetic energy at the start, and external work.
 ConservationErrors conservation_errors(const Totals& initial, const Totals& now, const ExternalLoad& external = {});
 

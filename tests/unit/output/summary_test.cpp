@@ -35,6 +35,7 @@ TEST(Summary, HasExactlyThePromisedKeysInOrder) {
                                           "peak_rss_mb",
                                           "mass_error_rel",
                                           "momentum_error_rel",
+                                          "angular_momentum_error_rel",
                                           "energy_error_rel",
                                           "shape_votes",
                                           "shape_few_neighbours",

@@ -1,5 +1,6 @@
 #pragma once
 /// Random clouds of particles for tests, and the brute-force answer to who is near whom.
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -51,31 +52,60 @@ struct Neighbour {
   Vec<Dim> x;
 };
 
-/// Every particle and every image within max(support h_i, support h_j) of particle i, by looking at all of them.
+/// Gives every particle an ellipsoid of random axes, the longest up to `aspect` times the shortest, of the size of its
+/// h.
+template <int Dim>
+void random_ellipsoids(Particles<Dim>& p, double aspect, unsigned seed) {
+  Uniform uniform(seed);
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    Mat<Dim> m;
+    for (int a = 0; a < Dim; ++a)
+      for (int b = 0; b < Dim; ++b) m(a, b) = uniform(-1, 1);
+    const Mat<Dim> turn = Eigen::HouseholderQR<Mat<Dim>>(m).householderQ();
+    Vec<Dim> axes;
+    for (int a = 0; a < Dim; ++a) axes[a] = std::pow(aspect, uniform(-0.5, 0.5));
+    axes *= p.column(Field::smoothing_length)[i] / std::pow(axes.prod(), 1.0 / Dim);
+    p.set_symmetric(Field::smoothing_metric, i,
+                    turn * axes.array().square().inverse().matrix().asDiagonal() * turn.transpose());
+  }
+}
+
+/// Every particle and every image that reaches particle i or is reached by it, by looking at all of them: within
+/// max(support h_i, support h_j), or in the ellipsoid |H x| < support of either where there are smoothing metrics.
 template <int Dim>
 std::vector<Neighbour<Dim>> all_neighbours(const Particles<Dim>& p, const Boundary& boundary, double support,
                                            std::size_t i) {
+  struct Place {
+    Vec<Dim> x, sign = Vec<Dim>::Ones();
+  };
   std::vector<Neighbour<Dim>> found;
   const auto h = p.column(Field::smoothing_length);
   const Vec<Dim> x = p.vector(Field::position, i);
   for (std::size_t j = 0; j < p.size(); ++j) {
-    const double reach = support * std::max(h[i], h[j]);
-    std::vector<Vec<Dim>> places{p.vector(Field::position, j)};
+    const auto reached = [&](const Place& place) {
+      const Vec<Dim> d = place.x - x;
+      if (!p.has(Field::smoothing_metric)) return d.norm() < support * std::max(h[i], h[j]);
+      const Vec<Dim> mirrored = place.sign.cwiseProduct(d);
+      return std::min(d.dot(p.symmetric(Field::smoothing_metric, i) * d),
+                      mirrored.dot(p.symmetric(Field::smoothing_metric, j) * mirrored)) < support * support;
+    };
+    std::vector<Place> places{{p.vector(Field::position, j)}};
     for (int a = 0; a < Dim; ++a) {
       const auto k = static_cast<std::size_t>(a);
       if (boundary.kind[k] == BoundaryKind::open) continue;
       const double low = boundary.min[k], high = boundary.max[k];
       for (std::size_t place = 0, before = places.size(); place < before; ++place) {
-        Vec<Dim> below = places[place], above = places[place];
+        Place below = places[place], above = places[place];
         const bool periodic = boundary.kind[k] == BoundaryKind::periodic;
-        below[a] = periodic ? below[a] - (high - low) : 2 * low - below[a];
-        above[a] = periodic ? above[a] + (high - low) : 2 * high - above[a];
+        below.x[a] = periodic ? below.x[a] - (high - low) : 2 * low - below.x[a];
+        above.x[a] = periodic ? above.x[a] + (high - low) : 2 * high - above.x[a];
+        if (!periodic) below.sign[a] = above.sign[a] = -1;
         places.push_back(below);
         places.push_back(above);
       }
     }
-    for (const Vec<Dim>& place : places)
-      if ((place - x).norm() < reach) found.push_back({j, place});
+    for (const Place& place : places)
+      if (reached(place)) found.push_back({j, place.x});
   }
   return found;
 }
