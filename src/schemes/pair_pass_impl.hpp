@@ -75,34 +75,31 @@ double double_contract(const double* s, const Mat<Dim>& L) {
 /// Sums over neighbours that make a velocity gradient.
 template <class V, int Dim, bool Correction>
 struct GradientSum {
-  V sum[Dim * Dim] = {};               ///< m dv_a g_b
-  V spread[symmetric_size<Dim>] = {};  ///< m dx_a g_b, only if Correction
+  V sum[Dim * Dim] = {};  ///< m dv_a g_b
+  V spread[Dim * Dim] =
+      {};  ///< m dx_a g_b, only if Correction; symmetric only where g is along dx, so not with tensors
 
   /// `weighted` is the kernel gradient times the mass of the partner.
   void add(const V (&dx)[Dim], const V (&dv)[Dim], const V (&weighted)[Dim]) {
     for (int a = 0; a < Dim; ++a)
-      for (int b = 0; b < Dim; ++b) sum[a * Dim + b] += dv[a] * weighted[b];
-    if constexpr (Correction) {
-      for (int a = 0; a < Dim; ++a) spread[a] += dx[a] * weighted[a];
-      int s = Dim;
-      for (int a = 0; a < Dim; ++a)
-        for (int b = a + 1; b < Dim; ++b) spread[s++] += dx[a] * weighted[b];
-    }
+      for (int b = 0; b < Dim; ++b) {
+        sum[a * Dim + b] += dv[a] * weighted[b];
+        if constexpr (Correction) spread[a * Dim + b] += dx[a] * weighted[b];
+      }
   }
-  Mat<Dim> raw(int lane, double per_unit) const {
+  static Mat<Dim> matrix(const V (&sums)[Dim * Dim], int lane, double factor) {
     Mat<Dim> m;
     for (int a = 0; a < Dim; ++a)
-      for (int b = 0; b < Dim; ++b) m(a, b) = static_cast<double>(sum[a * Dim + b][lane]) * per_unit;
+      for (int b = 0; b < Dim; ++b) m(a, b) = static_cast<double>(sums[a * Dim + b][lane]) * factor;
     return m;
   }
+  Mat<Dim> raw(int lane, double per_unit) const { return matrix(sum, lane, per_unit); }
   /// dv_a/dx_b: the raw sum over the density, corrected by the inverse of the spread. Where the neighbours do not span
   /// space well enough the uncorrected form is the better estimate.
   Mat<Dim> gradient(int lane, double per_unit, double specific_volume) const {
     const Mat<Dim> L = specific_volume * raw(lane, per_unit);
     if constexpr (Correction) {
-      Symmetric<Dim> sums;
-      for (int s = 0; s < symmetric_size<Dim>; ++s) sums[s] = static_cast<double>(spread[s][lane]) * specific_volume;
-      const Mat<Dim> m = matrix_of<Dim>(sums);
+      const Mat<Dim> m = matrix(spread, lane, specific_volume);
       constexpr double least_determinant = Dim == 2 ? 0.05 : 0.02;  // 1 in the interior, about 1/4 at an edge
       if (m.determinant() > least_determinant) return L * m.inverse();
     }
