@@ -32,6 +32,8 @@ inline Double8 max(Double8 a, Double8 b) { return (Double8)_mm512_max_pd((__m512
 inline Double8 min(Double8 a, Double8 b) { return (Double8)_mm512_min_pd((__m512d)a, (__m512d)b); }
 inline Float16 max(Float16 a, Float16 b) { return (Float16)_mm512_max_ps((__m512)a, (__m512)b); }
 inline Float16 min(Float16 a, Float16 b) { return (Float16)_mm512_min_ps((__m512)a, (__m512)b); }
+/// Bit k: a < b in lane k.
+inline unsigned lanes_less(Double8 a, Double8 b) { return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LT_OQ); }
 /// True if a < b in any lane.
 inline bool any_less(Double8 a, Double8 b) { return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LT_OQ) != 0; }
 inline bool any_less(Float16 a, Float16 b) { return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LT_OQ) != 0; }
@@ -51,7 +53,26 @@ bool any_less(V a, V b) {
   for (std::size_t k = 0; k < sizeof(V) / sizeof(a[0]); ++k) any |= a[k] < b[k];
   return any;
 }
+/// Bit k: a < b in lane k.
+inline unsigned lanes_less(Double8 a, Double8 b) {
+  unsigned bits = 0;
+  for (unsigned k = 0; k < 8; ++k) bits |= static_cast<unsigned>(a[k] < b[k]) << k;
+  return bits;
+}
 #endif
+/// Lane k of a vector; a number is its only lane.
+inline double lane(double a, int) { return a; }
+inline void set_lane(double& a, int, double value) { a = value; }
+template <class V>
+double lane(const V& a, int k) {
+  return a[k];
+}
+template <class V>
+void set_lane(V& a, int k, double value) {
+  a[k] = value;
+}
+inline bool any_less(double a, double b) { return a < b; }
+inline unsigned lanes_less(double a, double b) { return a < b; }
 
 inline double reciprocal_sqrt(double a) { return 1.0 / std::sqrt(a); }
 inline double reciprocal(double a) { return 1.0 / a; }

@@ -27,9 +27,32 @@
 /// axis of a lattice may be answered by another lattice's H, equally isotropic in its frame.
 #include <array>
 
+#include "base/simd.hpp"
 #include "base/types.hpp"
 
 namespace ejecta {
+
+/// s : t of two symmetric tensors.
+template <int Dim>
+double symmetric_product(const Symmetric<Dim>& s, const Symmetric<Dim>& t) {
+  constexpr int off = symmetric_size<Dim> - Dim;
+  return s.dot(t) + s.template tail<off>().dot(t.template tail<off>());
+}
+
+/// y = A x and x.y for a symmetric A.
+template <int Dim, class V>
+V quadratic_form(const V (&A)[symmetric_size<Dim>], const V (&x)[Dim], V (&y)[Dim]) {
+  if constexpr (Dim == 2) {
+    y[0] = A[0] * x[0] + A[2] * x[1];
+    y[1] = A[2] * x[0] + A[1] * x[1];
+    return x[0] * y[0] + x[1] * y[1];
+  } else {
+    y[0] = A[0] * x[0] + A[3] * x[1] + A[4] * x[2];
+    y[1] = A[3] * x[0] + A[1] * x[1] + A[5] * x[2];
+    y[2] = A[4] * x[0] + A[5] * x[1] + A[2] * x[2];
+    return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
+  }
+}
 
 /// A vote of one particle on the shape of H: the logarithm of the covariance of its first shell, made unimodular.
 /// The shape of H is its inverse square root.
@@ -40,52 +63,71 @@ struct ShapeVote {
   double spacing = 0;     ///< root mean square distance to the first shell per axis, in units of h/n_h
 };
 
-/// Collects the neighbours of one particle and votes.
-template <int Dim>
-class FirstShell {
+/// Collects the neighbours of some particles, one in each lane of V (double or simd::Double8), and lets each vote.
+template <int Dim, class V = simd::Double8>
+class FirstShells {
  public:
-  /// `metric` is G = H H of the particle [1/m^2], SPD to round-off; `support` the radius of the kernel in units of h.
-  FirstShell(const Mat<Dim>& metric, double nodes_per_h, double support);
+  static constexpr int lanes = sizeof(V) / sizeof(double);
 
-  /// A neighbour at offset x = x_j - x_i [m]; any values. What lies outside the support is left out.
-  void add(const Vec<Dim>& x);
+  /// `support`: radius of the kernel in units of h.
+  FirstShells(double nodes_per_h, double support);
+
+  /// A particle with the metric G = H H [1/m^2], SPD to round-off.
+  void place(int lane, const Mat<Dim>& metric);
+
+  /// A neighbour at offset x = x_j - x_i [m] from each lane; any values. What lies outside the support is left out;
+  /// `apart` is 0 in lanes that it concerns and infinite in others.
+  void add(const V (&x)[Dim], V apart = {});
 
   /// Neighbours inside the support so far.
-  int neighbours() const { return neighbours_; }
+  int neighbours(int lane) const { return static_cast<int>(simd::lane(neighbours_, lane)); }
 
   /// `reach`: how far H may look for neighbours along directions in which it has none, relative to the others.
-  ShapeVote<Dim> vote(double reach) const;
+  ShapeVote<Dim> vote(int lane, double reach);
 
  private:
-  /// Candidates kept for the first shell, the nearest ones; a regular lattice has at most 12 (2D) or 28 (3D).
+  /// Candidates kept for a first shell, the nearest ones; a regular lattice has at most 12 (2D) or 28 (3D).
   static constexpr int capacity_ = Dim == 2 ? 32 : 64;
-  struct Candidate {
-    Vec<Dim> u;
-    double u2;
+  using Column = std::array<double, capacity_>;
+  struct Shell {
+    Mat<Dim> log_metric, frame, frame_inverse;
+    std::array<Column, Dim> u;  ///< offsets of the candidates, in units of the node spacing, in the frame
+    Column u2;
+    int kept = 0;
   };
-  void keep(const Candidate& candidate);
-  std::array<double, capacity_> unshadowed() const;
+  void keep(Shell& shell, const std::array<double, Dim>& u, double u2);
+  void complete(Mat<Dim>& moment, const Mat<Dim>& cover, int lane, double reach) const;
 
-  Mat<Dim> metric_, to_nodes_, frame_, frame_inverse_, log_metric_;
-  double support2_, reach2_;
-  Mat<Dim> around_ = Mat<Dim>::Zero();  ///< sum of n n^T over all neighbours
-  int neighbours_ = 0, kept_ = 0;
-  std::array<Candidate, capacity_> candidates_;
+  double nodes_per_h_, support2_, per_reach2_;
+  V metric_[symmetric_size<Dim>] = {}, to_nodes_[symmetric_size<Dim>] = {};
+  V around_[symmetric_size<Dim>] = {};  ///< sum of n n^T over all neighbours
+  V neighbours_ = {};
+  std::array<Shell, lanes> shells_;
 };
 
-/// Weighted mean of the votes of a particle and its neighbours, and how much to trust it.
-template <int Dim>
+/// Weighted means of the votes of particles, one in each lane of V (double or simd::Double8), and their neighbours, and
+/// how much to trust them.
+template <int Dim, class V = double>
 class VoteMean {
  public:
   /// `weight` is the kernel at the place of the voter.
-  void add(double weight, const ShapeVote<Dim>& vote);
-  bool empty() const { return !(weight_ > 0); }
+  void add(V weight, const ShapeVote<Dim>& vote) {
+    const V w = weight * vote.confidence, w2 = w * w;
+    weight_ += w;
+    weight2_ += w2;
+    norm2_ += w2 * symmetric_product<Dim>(vote.log_covariance, vote.log_covariance);
+    for (int s = 0; s < symmetric_size<Dim>; ++s) {
+      sum_[s] += w * vote.log_covariance[s];
+      sum2_[s] += w2 * vote.log_covariance[s];
+    }
+  }
+  bool empty(int lane = 0) const { return !(simd::lane(weight_, lane) > 0); }
   /// The mean logarithm of the covariance, drawn towards round by its own noise.
-  Symmetric<Dim> shrunk() const;
+  Symmetric<Dim> shrunk(int lane = 0) const;
 
  private:
-  double weight_ = 0, weight2_ = 0, norm2_ = 0;
-  Symmetric<Dim> sum_ = Symmetric<Dim>::Zero(), sum2_ = Symmetric<Dim>::Zero();
+  V weight_ = {}, weight2_ = {}, norm2_ = {};
+  V sum_[symmetric_size<Dim>] = {}, sum2_[symmetric_size<Dim>] = {};
 };
 
 /// What a new shape must respect.

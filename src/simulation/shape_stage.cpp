@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/parallel.hpp"
+#include "base/simd.hpp"
 #include "schemes/kernels.hpp"
 #include "simulation/stages.hpp"
 
@@ -33,8 +35,11 @@ void place_voters(Simulation<Dim>& sim) {
   auto& places = sim.shape_scratch.places;
   places.resize(n + images.size());
   sim.shape_scratch.votes.resize(n + images.size());
+  sim.shape_scratch.neighbours.resize(n);
   const auto material = p.label(Label::material);
-  parallel_for(0, n, [&](std::size_t i) { places[i] = {p.vector(Field::position, i), material[i]}; });
+  parallel_for(0, n, [&](std::size_t i) {
+    places[i] = {p.vector(Field::position, i), static_cast<double>(material[i])};
+  });
   for (std::size_t k = 0; k < images.size(); ++k) {
     auto& place = places[n + k] = places[images[k].source];
     for (int a = 0; a < Dim; ++a) place.x[a] = image_position(sim.scene.boundary, images[k], a, place.x[a]);
@@ -53,26 +58,60 @@ void mirror_votes(Simulation<Dim>& sim) {
   }
 }
 
-/// Calls body(i, candidates of i) for all particles of a cluster.
+using V = simd::Double8;
+constexpr int lanes = 8;
+
+/// Up to 8 particles of a cluster, one in each lane; lanes beyond its end repeat the last one.
+template <int Dim>
+struct Members {
+  std::size_t begin;
+  int size;
+  V x[Dim], material;
+
+  Members(const Simulation<Dim>& sim, const Cluster& cluster, std::size_t first)
+      : begin(first), size(static_cast<int>(std::min<std::size_t>(lanes, cluster.end - first))) {
+    for (int k = 0; k < lanes; ++k) {
+      const auto& place = sim.shape_scratch.places[begin + static_cast<std::size_t>(std::min(k, size - 1))];
+      for (int a = 0; a < Dim; ++a) x[a][k] = place.x[a];
+      material[k] = place.material;
+    }
+  }
+  /// Calls body(lane, particle).
+  template <class Body>
+  void for_each(Body&& body) const {
+    for (int k = 0; k < size; ++k) body(k, begin + static_cast<std::size_t>(k));
+  }
+};
+
+/// Calls body(members, candidates) for all particles of a cluster.
 template <int Dim, class Body>
 void for_members(const Simulation<Dim>& sim, std::size_t cluster, Body&& body) {
   const Cluster& c = sim.lists.clusters()[cluster];
-  for (std::size_t i = c.begin; i < c.end; ++i) body(i, sim.lists.candidates(cluster));
+  for (std::size_t first = c.begin; first < c.end; first += lanes)
+    body(Members<Dim>(sim, c, first), sim.lists.candidates(cluster));
 }
 
 template <int Dim>
 void collect_votes(Simulation<Dim>& sim, double reach) {
-  const auto& places = sim.shape_scratch.places;
+  auto& scratch = sim.shape_scratch;
   const double support = kernel_support(sim.scene.numerics.kernel);
+  const V infinity = V{} + std::numeric_limits<double>::infinity();
   parallel_blocks(sim.lists.clusters().size(), 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t cluster = begin; cluster < end; ++cluster)
-      for_members(sim, cluster, [&](std::size_t i, std::span<const std::uint32_t> candidates) {
-        FirstShell<Dim> shell(sim.particles.symmetric(Field::smoothing_metric, i), sim.scene.numerics.nodes_per_h,
-                              support);
-        for (const std::uint32_t j : candidates)
-          if (j != i && places[j].material == places[i].material) shell.add(places[j].x - places[i].x);
-        sim.shape_scratch.votes[i] = shell.vote(reach);
-        sim.shape_scratch.places[i].neighbours = shell.neighbours();
+      for_members(sim, cluster, [&](const Members<Dim>& members, std::span<const std::uint32_t> candidates) {
+        FirstShells<Dim> shells(sim.scene.numerics.nodes_per_h, support);
+        members.for_each(
+            [&](int k, std::size_t i) { shells.place(k, sim.particles.symmetric(Field::smoothing_metric, i)); });
+        for (const std::uint32_t j : candidates) {
+          const auto& place = scratch.places[j];
+          V dx[Dim];
+          for (int a = 0; a < Dim; ++a) dx[a] = place.x[a] - members.x[a];
+          shells.add(dx, members.material == V{} + place.material ? V{} : infinity);
+        }
+        members.for_each([&](int k, std::size_t i) {
+          scratch.votes[i] = shells.vote(k, reach);
+          scratch.neighbours[i] = shells.neighbours(k);
+        });
       });
   });
 }
@@ -81,29 +120,35 @@ void collect_votes(Simulation<Dim>& sim, double reach) {
 template <int Dim, class Kernel>
 Round apply_votes(Simulation<Dim>& sim, bool sum_neighbours) {
   Particles<Dim>& p = sim.particles;
-  const auto& places = sim.shape_scratch.places;
-  const auto& votes = sim.shape_scratch.votes;
+  const auto& scratch = sim.shape_scratch;
   const ShapeLimits limits{.largest_aspect = sim.scene.numerics.largest_aspect, .fewest_neighbours = 2 * Dim};
   return parallel_sum<Round>(sim.lists.clusters().size(), [&](std::size_t cluster) {
     Round round;
-    for_members(sim, cluster, [&](std::size_t i, std::span<const std::uint32_t> candidates) {
-      const Mat<Dim> metric = p.symmetric(Field::smoothing_metric, i);
-      VoteMean<Dim> mean;
-      mean.add(Kernel::value(0.0), votes[i]);
-      double sum = 0;
+    for_members(sim, cluster, [&](const Members<Dim>& members, std::span<const std::uint32_t> candidates) {
+      V metric[symmetric_size<Dim>] = {};
+      members.for_each([&](int k, std::size_t i) {
+        for (int s = 0; s < symmetric_size<Dim>; ++s) metric[s][k] = p.column(Field::smoothing_metric, s)[i];
+      });
+      VoteMean<Dim, V> mean;
+      V sum{};
       for (const std::uint32_t j : candidates) {
-        const Vec<Dim> x = places[j].x - places[i].x;
-        const double eta2 = x.dot(metric * x);
-        if (!(eta2 < Kernel::support * Kernel::support) || j == i) continue;
-        const double eta = std::sqrt(eta2);
-        if (places[j].material == places[i].material) mean.add(Kernel::value(eta), votes[j]);
-        if (eta > 0) sum -= eta * Kernel::slope_over_q(eta, 1 / eta);
+        const auto& place = scratch.places[j];
+        V dx[Dim], image[Dim];
+        for (int a = 0; a < Dim; ++a) dx[a] = place.x[a] - members.x[a];
+        const V eta2 = quadratic_form<Dim>(metric, dx, image);
+        if (!simd::any_less(eta2, V{} + Kernel::support * Kernel::support)) continue;
+        const V reciprocal = simd::reciprocal_sqrt(V(eta2 + 1e-200)), eta = eta2 * reciprocal;
+        mean.add(members.material == V{} + place.material ? Kernel::value(eta) : V{}, scratch.votes[j]);
+        if (sum_neighbours) sum -= eta * Kernel::slope_over_q(eta, reciprocal);
       }
-      ShapeActions actions;
-      const bool keep = mean.empty() || places[i].neighbours < limits.fewest_neighbours;
-      p.set_symmetric(Field::smoothing_metric, i, reshaped<Dim>(metric, mean.shrunk(), keep, limits, actions));
-      if (sum_neighbours) p.column(Field::neighbour_sum)[i] = sum;
-      round += {{1, actions.kept, actions.change, actions.aspect}, actions.moved};
+      members.for_each([&](int k, std::size_t i) {
+        ShapeActions actions;
+        const bool keep = mean.empty(k) || scratch.neighbours[i] < limits.fewest_neighbours;
+        const Mat<Dim> before = p.symmetric(Field::smoothing_metric, i);
+        p.set_symmetric(Field::smoothing_metric, i, reshaped<Dim>(before, mean.shrunk(k), keep, limits, actions));
+        if (sum_neighbours) p.column(Field::neighbour_sum)[i] = sum[k];
+        round += {{1, actions.kept, actions.change, actions.aspect}, actions.moved};
+      });
     });
     return round;
   });

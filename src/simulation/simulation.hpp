@@ -73,15 +73,15 @@ template <int Dim>
 struct ShapeScratch {
   struct Place {
     Vec<Dim> x;
-    std::int32_t material;
-    int neighbours = 0;
+    double material;
   };
   std::vector<Place> places;
   std::vector<ShapeVote<Dim>> votes;
+  std::vector<int> neighbours;  ///< of the particles
   std::vector<double> lengths;
   std::size_t bytes() const {
     return lengths.capacity() * sizeof(double) + places.capacity() * sizeof(Place) +
-           votes.capacity() * sizeof(ShapeVote<Dim>);
+           votes.capacity() * sizeof(ShapeVote<Dim>) + neighbours.capacity() * sizeof(int);
   }
 };
 

@@ -14,6 +14,25 @@
 
 namespace ejecta {
 
+/// The vote of a single particle.
+template <int Dim>
+class FirstShell {
+ public:
+  FirstShell(const Mat<Dim>& metric, double nodes_per_h, double support) : shells_(nodes_per_h, support) {
+    shells_.place(0, metric);
+  }
+  void add(const Vec<Dim>& x) {
+    double offset[Dim];
+    for (int a = 0; a < Dim; ++a) offset[a] = x[a];
+    shells_.add(offset);
+  }
+  int neighbours() const { return shells_.neighbours(0); }
+  ShapeVote<Dim> vote(double reach) { return shells_.vote(0, reach); }
+
+ private:
+  FirstShells<Dim, double> shells_;
+};
+
 template <int Dim>
 struct NodeSet {
   Mat<Dim> box;  ///< columns: the edges of the period; empty space around the set if it is far wider than the nodes
