@@ -66,9 +66,9 @@ double grow_cracks(Mat<Dim>& damage, const Mat<Dim>& strain, const CrackGrowth<D
     const double crack = std::cbrt(broken), limit = crack_limit(active, growth.flaws);
     if (!(crack < limit && intact > 0)) continue;
     const double rate = crack_growth_rate(active, growth.crack_speed, damage_length<Dim>(growth.metric, n));
-    fastest = std::max(fastest, rate);
     const double longer = std::min(crack + dt * rate, limit);
     if (!(longer > crack)) continue;
+    fastest = std::max(fastest, (longer - crack) / dt);
     const double lost = std::min((longer * longer * longer - broken) / intact, 1.0);
     const Vec<Dim> left = a.cwiseProduct(y);  // A n
     const Mat<Dim> grown = Mat<Dim>(d.asDiagonal()) + lost / intact * left * left.transpose();

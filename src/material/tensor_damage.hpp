@@ -54,7 +54,8 @@ struct CrackGrowth {
 /// which is D <- D + (D1 - D0) n n^T if n is an eigenvector of D. Added for any other n, n n^T would carry eigenvalues
 /// beyond 1, and cutting them off would heal the cracks that were open; this form is A^(1/2) (I - g p p^T) A^(1/2) with
 /// |p| = 1 and 0 <= g <= 1, so that 0 <= A <= its old value: eigenvalues stay in 0..1 and nothing heals.
-/// Returns the fastest growth of D^(1/3) in any direction [1/s]; 0 if no crack grows.
+/// Returns the fastest growth of D^(1/3) in any direction over dt [1/s], 0 if no crack grows: a crack held up by the
+/// flaws open so far follows the strain, slowly, and asks for no short step.
 template <int Dim>
 double grow_cracks(Mat<Dim>& damage, const Mat<Dim>& strain, const CrackGrowth<Dim>& growth, double dt);
 
