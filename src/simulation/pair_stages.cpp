@@ -16,6 +16,10 @@ double curl(const Mat<Dim>& L) {
   if constexpr (Dim == 3) return Vec<3>(L(2, 1) - L(1, 2), L(0, 2) - L(2, 0), L(1, 0) - L(0, 1)).norm();
 }
 
+/// Continuity knows a solid particle's density by its neighbours alone: one that is being torn off all of them would
+/// come to nothing, and the time step with it. Thinner than this, relative to the body, it expands no further.
+constexpr double least_relative_density = 1e-3;
+
 }  // namespace
 
 template <int Dim>
@@ -45,7 +49,10 @@ void strain_rates(Simulation<Dim>& sim) {
     parallel_for(range.begin, range.end, [&](std::size_t i) {
       const Mat<Dim> L = p.tensor(Field::velocity_gradient, i);
       const double compression = -L.trace();  // (1/rho) drho/dt
-      if (continuity) p.column(Field::density_rate)[i] = p.column(Field::density)[i] * compression;
+      const double density = p.column(Field::density)[i];
+      const bool torn = material.solid() && density < least_relative_density * material.bulk_density();
+      if (continuity)
+        p.column(Field::density_rate)[i] = torn ? std::max(0.0, density * compression) : density * compression;
       if (!material.solid()) return;
       double shear = variable_shear ? p.column(Field::shear_modulus)[i] : material.elastic->shear_modulus;
       double distension_rate = 0;
