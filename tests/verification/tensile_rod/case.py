@@ -23,7 +23,8 @@ class TensileRod(Case):
     small = {"time.max_steps": 150, "materials.steel_304.damage.weibull_k": "1e13 1/m^3", "output.snapshots": 0}
     rotation = "flaws belong to places: a turned rod has others"
     mixed_margin = "breaks are chaotic: round-off moves them to other links"
-    boost, boost_speed = "y", 100.0
+    boost = ("cracks: a round-off of 1e-16 in a D of nearly 1 is 1e-8 in (I - D)^(1/2), across which stress is carried; "
+             "intact, the rod moving along y with 100 m/s differs by 4e-14")
 
     def settings(self, resolution):
         dx = LENGTH / resolution
@@ -74,7 +75,8 @@ class Sph(TensileRod):
     name = "tensile_rod_sph"
     title = "SPH loses contact along the rod: links break in sound matter"
     scheme = "sph"
-    bounds = (Bound("links broken damaged", "fraction", 0.85, why="of those of SPH a good part is to be sound"), MOMENTUM)
+    bounds = (Bound("links broken damaged", "fraction", {45: 0.94, 75: 0.64},
+                    why="worst of three seeds 0.853, 0.558 (two at 75: ASPH has 1)"), MOMENTUM)
 
     def judged(self, run, sound):
         return {("links broken damaged", "fraction"): 1 - sound}
@@ -84,7 +86,7 @@ class Asph(TensileRod):
     name = "tensile_rod_asph"
     title = "ASPH keeps its neighbours: links break where damage broke them"
     scheme = "asph"
-    bounds = (Bound("links broken sound", "fraction", 0.1, why="see README"), MOMENTUM,
+    bounds = (Bound("links broken sound", "fraction", 0.06, why="worst of three seeds 0.025, one link of 40"), MOMENTUM,
               Bound("restart", "differing fields", 0, why="exact"))
 
     def judged(self, run, sound):
