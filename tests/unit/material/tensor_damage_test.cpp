@@ -133,7 +133,8 @@ TEST(GrowCracks, OpenAcrossTheEigenvectorOfPositiveStrain) {
     EXPECT_NEAR(rate, 4 * 3 / 0.5, 1e-9) << "(2e-3/1e-3)^2 flaws, c_g/R";
     const double d = std::pow(0.24, 3);
     EXPECT_NEAR((damage - d * q.col(0) * q.col(0).transpose()).norm(), 0, 1e-12);
-    grow_cracks<3>(damage, strain, {ten_flaws, 3, round_metric<3>(0.5)}, 1);
+    const double held_up = grow_cracks<3>(damage, strain, {ten_flaws, 3, round_metric<3>(0.5)}, 1);
+    EXPECT_NEAR(held_up, std::cbrt(0.4) - 0.24, 1e-12) << "what took place in one second";
     EXPECT_NEAR((damage - 0.4 * q.col(0) * q.col(0).transpose()).norm(), 0, 1e-12) << "four flaws of ten are open";
     const Mat<3> open = damage, pressed = -strain;
     grow_cracks<3>(damage, pressed, {ten_flaws, 3, round_metric<3>(0.5)}, 0);
