@@ -40,6 +40,14 @@ Axes axes_of(const Mat<Dim>& metric) {
   }
 }
 
+/// No more than the shortest semi-axis [m]; equal to it if the ellipsoid is a sphere or flat and round.
+template <int Dim>
+double shortest_axis_bound(const Mat<Dim>& metric) {
+  // The largest of n eigenvalues is at most mean + sqrt((n - 1)/n) |deviator|.
+  const double mean = metric.trace() / Dim, deviator2 = std::max(0.0, metric.squaredNorm() - Dim * mean * mean);
+  return (1 - 1e-7) / std::sqrt(mean + std::sqrt((Dim - 1.0) / Dim * deviator2));
+}
+
 /// The metric carried along by a velocity gradient L_ab = dv_a/dx_b [1/s] for a time dt [s]: G' = A^T G A with
 /// A = (I + dt/2 L)^-1 (I - dt/2 L), so that |H x| of points of the fluid stays what it was. Exact in a rigid rotation
 /// to second order of its angle, and positive definite for any L short of dt L = 2.

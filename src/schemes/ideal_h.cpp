@@ -127,6 +127,7 @@ void FirstShells<Dim, V>::add(const V (&x)[Dim], V apart) {
   const auto counts = (eta2 < V{} + support2_) & (u2 > V{} + coincident * coincident);
   const V zero{}, one = zero + 1.0;
   neighbours_ += counts ? one : zero;
+  for (V& component : u) component = counts ? component : zero;
   add_square<Dim>(around_, counts ? simd::reciprocal(u2) : zero, u);
   constexpr double near = 0.75 * shell_radius;
   const V distance = simd::min(V(eta2 * per_reach2_), V(u2 * (1 / (near * near))));
@@ -262,7 +263,9 @@ Mat<Dim> reshaped(const Mat<Dim>& metric, const Symmetric<Dim>& log_covariance, 
   Mat<Dim> shape = evolved.logarithm();
   if (!keep) {
     const Mat<Dim> change = -matrix_of<Dim>(log_covariance) - shape;
-    const double wanted = 0.5 * PrincipalAxes<Dim>(change).values.cwiseAbs().maxCoeff();  // of an axis of H
+    Eigen::SelfAdjointEigenSolver<Mat<Dim>> solver;
+    solver.computeDirect(change, Eigen::EigenvaluesOnly);
+    const double wanted = 0.5 * solver.eigenvalues().cwiseAbs().maxCoeff();  // of an axis of H
     const double allowed = std::log(limits.largest_change);
     actions.change = wanted > allowed;
     actions.moved = std::min(wanted, allowed);
