@@ -1,0 +1,71 @@
+"""Rubber rings (inputs/rubber_balls_2d.toml): survive a bounce with 2 particles a smoothing length, not with 1.2."""
+import numpy as np
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
+
+from harness import Bound, Case
+from harness.run import number
+
+WALL = 10e-3  # m
+LINK, PIECE = 1.4, 8  # friends are nearer than this many spacings; smaller groups are single particles
+
+
+class Balls(Case):
+    """Resolution: particles through the wall."""
+    scene = "../../../inputs/rubber_balls_2d.toml"
+    exact = "each ring stays whole, and they part"
+    quick = full = (5,)
+    boost = "x"
+    nodes_per_h, scheme = 2, "asph"
+    name = "rubber_balls"
+    title = "rubber rings bounce with 2 particles a smoothing length"
+    bounds = (Bound("closest pair", "spacings lost", 0.6, why="at full compression; 0.5 is missed by a little"),
+              Bound("closest pair at the end", "spacings lost", 0.4, why="after the bounce"),
+              Bound("pieces too many", "count", 0, why="it breaks or not"),
+              Bound("single particles lost", "share", 0.005, why="two of each ring change sides at the contact"),
+              Bound("still together", "yes or no", 0, why="they part or not"))
+    mixed_margin = "contact and clumping grow from round-off"
+
+    def settings(self, resolution):
+        return {"resolution.spacing": (WALL / resolution, "m"), "numerics.nodes_per_h": self.nodes_per_h,
+                "numerics.scheme": self.scheme, "time.end": "4 ms", "insitu.enabled": False}
+
+    def errors(self, run, resolution):
+        spacing = number(run.scene["resolution"]["spacing"])
+        closest = [min(self.closest(s["position"][s["body"] == k]) for k in (0, 1)) / spacing for s in run.states]
+        final = run.final
+        groups = [self.pieces(final["position"][final["body"] == k], spacing) for k in (0, 1)]
+        centres = [final["position"][final["body"] == k].mean(axis=0)[0] for k in (0, 1)]
+        single = sum(g[g < PIECE].sum() for g in groups)
+        return {("closest pair", "spacings lost"): 1 - min(closest),
+                ("closest pair at the end", "spacings lost"): 1 - closest[-1],
+                ("pieces too many", "count"): float(sum((g >= PIECE).sum() - 1 for g in groups)),
+                ("single particles lost", "share"): float(single / len(final)),
+                ("still together", "yes or no"): float(centres[1] - centres[0] < 0.08)}
+
+    def closest(self, x):
+        """Distance of the closest pair."""
+        return cKDTree(x).query(x, k=2)[0][:, 1].min()
+
+    def pieces(self, x, spacing):
+        """Sizes of the connected groups of particles."""
+        pairs = cKDTree(x).query_pairs(LINK * spacing, output_type="ndarray")
+        links = coo_matrix((np.ones(len(pairs)), pairs.T), shape=(len(x), len(x)))
+        return np.bincount(connected_components(links, directed=False)[1])
+
+
+class TooFew(Balls):
+    """The same criteria with 1.2 particles a smoothing length: at least one must fail."""
+    name = "rubber_balls_too_few"
+    title = "rubber rings do not survive with 1.2 particles a smoothing length"
+    exact = "none: the criteria must refuse this"
+    nodes_per_h, scheme = 1.2, "sph"
+    bounds = (Bound("criteria met", "all", 0, why="the tensile instability breaks the rings"),)
+
+    def errors(self, run, resolution):
+        found = super().errors(run, resolution)
+        return {("criteria met", "all"): float(all(found[b.quantity, b.norm] <= b.limit(resolution) for b in Balls.bounds))}
+
+
+CASES = [Balls(), TooFew()]
