@@ -235,8 +235,7 @@ TEST(PairPass, TheCorrectedGradientOfALinearFlowIsExact) {
 /// gradient, relative to A, where the neighbours span space.
 template <int Dim>
 double error_with_tensors(Kernel kernel, Precision precision, const Mat<Dim>& A, double aspect) {
-  auto p = random_matter<Dim>(800, 31, true);
-  p.add(Field::smoothing_metric);
+  auto p = random_matter<Dim>(800, 31, true, 1.5, {Field::smoothing_metric});
   Uniform uniform(32);
   for (std::size_t i = 0; i < p.size(); ++i) {
     const Mat<Dim> random = Mat<Dim>::NullaryExpr([&] { return uniform(-1, 1); });

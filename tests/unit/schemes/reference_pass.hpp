@@ -29,11 +29,13 @@ inline PairPassSettings settings_of(Kernel kernel, Precision precision, bool str
 /// n particles of a cloud with that mean spacing; every field that rates() reads is random. Ranges of two
 /// materials.
 template <int Dim>
-Particles<Dim> random_matter(std::size_t n, unsigned seed, bool stress, double h_spread = 1.5) {
+Particles<Dim> random_matter(std::size_t n, unsigned seed, bool stress, double h_spread = 1.5,
+                             std::vector<Field> more = {}) {
   std::vector<Field> fields{Field::smoothing_length, Field::density,      Field::pressure,
                             Field::sound_speed,      Field::heating,      Field::neighbour_sum,
                             Field::approach_speed,   Field::shear_switch, Field::velocity_gradient};
   if (stress) fields.push_back(Field::deviatoric_stress);
+  fields.insert(fields.end(), more.begin(), more.end());
   Particles<Dim> p = random_cloud<Dim>(n, seed, spacing, h_spread * spacing, fields);
   Uniform uniform(seed + 1);
   const double edge = spacing * std::pow(static_cast<double>(n), 1.0 / Dim);
