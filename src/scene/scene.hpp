@@ -66,7 +66,7 @@ struct Numerics {
   double nodes_per_h = 1.3;       ///< n_h of seed 001: particles per smoothing length
   double smoothing_growth = 1.5;  ///< h stays within [1/4, this] of its initial value; 1 keeps h constant
   double largest_aspect = 10;     ///< ASPH: longest over shortest axis of the smoothing ellipsoid
-  int shape_interval = 5;         ///< ASPH: steps between votes on the shape of H; between them it moves with the flow
+  int shape_interval = 10;        ///< ASPH: steps between votes on the shape of H; between them it moves with the flow
   bool gradient_correction = false;  ///< velocity gradients exact for linear fields
   bool balsara = false;              ///< shear switch on the viscosity
   double viscosity_alpha = 1;        ///< linear coefficient of Monaghan's viscosity

@@ -73,39 +73,34 @@ double double_contract(const double* s, const Mat<Dim>& L) {
 }
 
 /// Sums over neighbours that make a velocity gradient.
-template <class V, int Dim, bool Correction>
+template <class V, int Dim, bool Spread>
 struct GradientSum {
-  V sum[Dim * Dim] = {};  ///< m dv_a g_b
-  V spread[Dim * Dim] =
-      {};  ///< m dx_a g_b, only if Correction; symmetric only where g is along dx, so not with tensors
+  V sum[Dim * Dim] = {};     ///< m dv_a g_b
+  V spread[Dim * Dim] = {};  ///< m dx_a g_b, only if Spread; symmetric only where g is along dx, so not with tensors
 
   /// `weighted` is the kernel gradient times the mass of the partner.
   void add(const V (&dx)[Dim], const V (&dv)[Dim], const V (&weighted)[Dim]) {
     for (int a = 0; a < Dim; ++a)
       for (int b = 0; b < Dim; ++b) {
         sum[a * Dim + b] += dv[a] * weighted[b];
-        if constexpr (Correction) spread[a * Dim + b] += dx[a] * weighted[b];
+        if constexpr (Spread) spread[a * Dim + b] += dx[a] * weighted[b];
       }
   }
-  static Mat<Dim> matrix(const V (&sums)[Dim * Dim], int lane, double factor) {
+  static Mat<Dim> of_lane(const V (&sums)[Dim * Dim], int lane) {
     Mat<Dim> m;
     for (int a = 0; a < Dim; ++a)
-      for (int b = 0; b < Dim; ++b) m(a, b) = static_cast<double>(sums[a * Dim + b][lane]) * factor;
+      for (int b = 0; b < Dim; ++b) m(a, b) = static_cast<double>(sums[a * Dim + b][lane]);
     return m;
   }
-  Mat<Dim> raw(int lane, double per_unit) const { return matrix(sum, lane, per_unit); }
-  /// dv_a/dx_b: the raw sum over the density, corrected by the inverse of the spread. Where the neighbours do not span
-  /// space well enough the uncorrected form is the better estimate.
-  Mat<Dim> gradient(int lane, double per_unit, double specific_volume) const {
-    const Mat<Dim> L = specific_volume * raw(lane, per_unit);
-    if constexpr (Correction) {
-      const Mat<Dim> m = matrix(spread, lane, specific_volume);
-      constexpr double least_determinant = Dim == 2 ? 0.05 : 0.02;  // 1 in the interior, about 1/4 at an edge
-      if (m.determinant() > least_determinant) return L * m.inverse();
-    }
-    return L;
-  }
 };
+
+/// The gradient L times the inverse of the spread. Where the neighbours do not span space well enough the uncorrected
+/// form is the better estimate.
+template <int Dim>
+Mat<Dim> corrected(const Mat<Dim>& L, const Mat<Dim>& spread) {
+  constexpr double least_determinant = Dim == 2 ? 0.05 : 0.02;  // 1 in the interior, about 1/4 at an edge
+  return spread.determinant() > least_determinant ? Mat<Dim>(L * spread.inverse()) : L;
+}
 
 template <int Dim>
 void store(Particles<Dim>& particles, Field field, std::size_t i, const Mat<Dim>& m) {
@@ -134,7 +129,7 @@ class PairPassOf final : public PairPass<Dim> {
   using R = PairRecord<T, Dim, Kind.record()>;
   using V = simd::Vector<T, simd::lanes<T>>;
   using Support = std::conditional_t<Kind.tensor, TensorSupport<V, Dim, K, R>, IsotropicSupport<V, Dim, K, R>>;
-  using GradientSum = pair_detail::GradientSum<V, Dim, Kind.correction>;
+  using GradientSum = pair_detail::GradientSum<V, Dim, Kind.correction || Kind.coupled>;
 
   /// A candidate as the lanes of a cluster see it.
   struct Partner {
@@ -196,8 +191,7 @@ void PairPassOf<T, Dim, Kind, K>::cluster_rates(Particles<Dim>& particles, const
   const T alpha = static_cast<T>(settings_.viscosity_alpha), beta = static_cast<T>(settings_.viscosity_beta);
 
   simd::WideSum<T> acceleration[Dim], viscous_heating;
-  [[maybe_unused]] GradientSum gradient;
-  [[maybe_unused]] pair_detail::GradientSum<V, Dim, true> coupled;
+  [[maybe_unused]] GradientSum gradient, cut;  // cut: the share that cracks take off
   V divergence{}, moment{}, fastest{};
   Partner partners[batch];
   for (std::size_t begin = 0; begin < candidates.size(); begin += batch) {
@@ -240,12 +234,12 @@ void PairPassOf<T, Dim, Kind, K>::cluster_rates(Particles<Dim>& particles, const
         for (int b = 0; b < Dim; ++b) weighted[b] = mass * kernel_gradient[b];
         gradient.add(p.dx, dv, weighted);
         if constexpr (Kind.coupled) {
-          const V across =
-              simd::max(pair_detail::along<Dim>(damage, p.dx), pair_detail::along<Dim>(j + R::damage, p.dx)) *
-              simd::reciprocal(V(p.r2 + support_detail::guard<T>));
-          const V intact = simd::max(V(T(1) - across), V{});
-          for (int b = 0; b < Dim; ++b) weighted[b] *= intact;
-          coupled.add(p.dx, dv, weighted);
+          V across = simd::max(pair_detail::along<Dim>(damage, p.dx), pair_detail::along<Dim>(j + R::damage, p.dx));
+          if (simd::any_less(V{}, across)) {  // most matter has no cracks
+            across = simd::min(V(across * simd::reciprocal(V(p.r2 + support_detail::guard<T>))), V{} + T(1));
+            for (int b = 0; b < Dim; ++b) weighted[b] *= across;
+            cut.add(p.dx, dv, weighted);
+          }
         }
       } else {
         divergence += mass * work;
@@ -263,10 +257,18 @@ void PairPassOf<T, Dim, Kind, K>::cluster_rates(Particles<Dim>& particles, const
     double work = 0;  // of the stress, sigma : L / rho
     if constexpr (Kind.gradient) {
       const double specific_volume = 1 / particles.column(Field::density)[i];
-      pair_detail::store(particles, Field::velocity_gradient, i, gradient.gradient(k, per_unit, specific_volume));
-      if constexpr (Kind.coupled)
-        pair_detail::store(particles, Field::coupled_gradient, i, coupled.gradient(k, per_unit, specific_volume));
-      work = pair_detail::double_contract<Kind.stress, Dim>(own_stress, gradient.raw(k, per_unit));
+      const Mat<Dim> raw = per_unit * GradientSum::of_lane(gradient.sum, k),
+                     spread = GradientSum::of_lane(gradient.spread, k);
+      Mat<Dim> L = specific_volume * raw;
+      if constexpr (Kind.correction) L = pair_detail::corrected<Dim>(L, specific_volume * spread);
+      pair_detail::store(particles, Field::velocity_gradient, i, L);
+      if constexpr (Kind.coupled) {
+        const Mat<Dim> left = raw - per_unit * GradientSum::of_lane(cut.sum, k),
+                       left_spread = spread - GradientSum::of_lane(cut.spread, k);
+        pair_detail::store(particles, Field::coupled_gradient, i,
+                           pair_detail::corrected<Dim>(specific_volume * left, specific_volume * left_spread));
+      }
+      work = pair_detail::double_contract<Kind.stress, Dim>(own_stress, raw);
     } else {
       work = own_stress[0] * (static_cast<double>(divergence[k]) * per_unit);
     }

@@ -124,7 +124,7 @@ TEST(ShapeStage, IsTheSameForEveryNumberOfThreads) {
     auto sim = gas_box(0.2);
     sim->clock.step = 0;
     vote_shapes(*sim);
-    sim->clock.step = 5;
+    sim->clock.step = sim->scene.numerics.shape_interval;
     vote_shapes(*sim);
     results.emplace_back();
     for (int k = 0; k < 3; ++k)
@@ -147,7 +147,7 @@ TEST(ShapeStage, MaterialsVoteAmongThemselves) {
   alone->lists.invalidate();
   renew_lists(*alone);
   for (auto* sim : {whole.get(), halves.get(), alone.get()}) {
-    sim->clock.step = 5;
+    sim->clock.step = sim->scene.numerics.shape_interval;
     vote_shapes(*sim);
   }
   int at_the_cut = 0, changed = 0;
