@@ -23,7 +23,7 @@
 /// only 3.4 to 3.6. Stretched to 4 in 100 steps with votes every 5: 4.00, never off by more than 2 %. Shear to 20,
 /// votes every 5 (10) steps: mean aspect 4 (4), at most 6 (6), at 0.01 a step; 6 (9), at most 7 (12), at 0.05; single
 /// particles of a jittered lattice that is sheared without ever relaxing up to 16 at 0.02 and 20 at 0.05, where the
-/// largest aspect acts. Every 10 steps at 0.05: 8.6 (11.5). Taking only half of each vote: 9 (11). H moved with the
+/// largest aspect acts. Taking only half of each vote: 9 (11). H moved with the
 /// flow alone: 402. A stretch along no axis of a lattice may be answered by another lattice's H, equally isotropic in
 /// its frame.
 #include <array>
