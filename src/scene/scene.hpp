@@ -63,7 +63,7 @@ struct Numerics {
   Kernel kernel = Kernel::wendland_c2;
   Precision precision = Precision::double_precision;
   DensityMethod density = DensityMethod::continuity;
-  double nodes_per_h = 1.3;       ///< n_h of seed 001: particles per smoothing length
+  double nodes_per_h = 1.3;       ///< n_h of Owen (2010): particles per smoothing length
   double smoothing_growth = 1.5;  ///< h stays within [1/4, this] of its initial value; 1 keeps h constant
   double largest_aspect = 10;     ///< ASPH: longest over shortest axis of the smoothing ellipsoid
   int shape_interval = 10;        ///< ASPH: steps between votes on the shape of H; between them it moves with the flow
