@@ -1,6 +1,6 @@
 #pragma once
 /// The pair loop. W particles i sit in the lanes of vector registers; the candidates j of their cluster are broadcast
-/// one by one from their records. Included only by the pair_pass_<kernel>.cpp files, one instantiation each.
+/// one by one from their records. Included only by the pair_pass_ and tensor_pass_ files of the kernels.
 #include <Eigen/LU>
 #include <bit>
 
