@@ -120,6 +120,24 @@ inline Float16 reciprocal(Float16 a) {
 #endif
 }
 
+inline double square_root(double a) { return std::sqrt(a); }
+inline Double8 square_root(Double8 a) {
+#ifdef __AVX512F__
+  return (Double8)_mm512_sqrt_pd((__m512d)a);
+#else
+  for (int k = 0; k < 8; ++k) a[k] = std::sqrt(a[k]);
+  return a;
+#endif
+}
+inline Float16 square_root(Float16 a) {
+#ifdef __AVX512F__
+  return (Float16)_mm512_sqrt_ps((__m512)a);
+#else
+  for (int k = 0; k < 16; ++k) a[k] = std::sqrt(a[k]);
+  return a;
+#endif
+}
+
 /// The same value, through which the compiler may not fuse a product into a later sum. Needed where a*b + c*d must be
 /// the same number as c*d + a*b.
 inline double rounded(double a) {
@@ -143,23 +161,38 @@ template <>
 struct WideSum<double> {
   Double8 sum{};
   void add(double weight, Double8 value) { sum += weight * value; }
+  void add_product(double weight, Double8 a, Double8 b) { sum += weight * (a * b); }
   double lane(int k) const { return sum[k]; }
 };
 template <>
 struct WideSum<float> {
   Double8 low{}, high{};
   void add(double weight, Float16 value) {
-#ifdef __AVX512F__
-    low += weight * (Double8)_mm512_cvtps_pd(_mm512_castps512_ps256((__m512)value));
-    high +=
-        weight * (Double8)_mm512_cvtps_pd(_mm256_castpd_ps(_mm512_extractf64x4_pd(_mm512_castps_pd((__m512)value), 1)));
-#else
-    for (int k = 0; k < 8; ++k) {
-      low[k] += weight * static_cast<double>(value[k]);
-      high[k] += weight * static_cast<double>(value[k + 8]);
-    }
-#endif
+    low += weight * lower(value);
+    high += weight * upper(value);
   }
+  /// The product itself is not rounded to single precision.
+  void add_product(double weight, Float16 a, Float16 b) {
+    low += weight * (lower(a) * lower(b));
+    high += weight * (upper(a) * upper(b));
+  }
+#ifdef __AVX512F__
+  static Double8 lower(Float16 v) { return (Double8)_mm512_cvtps_pd(_mm512_castps512_ps256((__m512)v)); }
+  static Double8 upper(Float16 v) {
+    return (Double8)_mm512_cvtps_pd(_mm256_castpd_ps(_mm512_extractf64x4_pd(_mm512_castps_pd((__m512)v), 1)));
+  }
+#else
+  static Double8 lower(Float16 v) {
+    Double8 half;
+    for (int k = 0; k < 8; ++k) half[k] = static_cast<double>(v[k]);
+    return half;
+  }
+  static Double8 upper(Float16 v) {
+    Double8 half;
+    for (int k = 0; k < 8; ++k) half[k] = static_cast<double>(v[k + 8]);
+    return half;
+  }
+#endif
   double lane(int k) const { return k < 8 ? low[k] : high[k - 8]; }
 };
 

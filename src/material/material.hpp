@@ -32,6 +32,20 @@ struct Material {
     return tensor_damage() && strength &&
            std::visit([](const auto& s) { return s.intact_fraction(1) != 1; }, *strength);
   }
+  /// Whether it stays elastic up to large strains, as rubber does: without end, or beyond a strain of a twentieth.
+  /// Particles that stretch so far must hold on to the neighbours of the start (schemes/pair_pass.hpp).
+  bool stretches() const {
+    if (!elastic || damage || porosity) return false;
+    const double limit = 0.05 * elastic->young();
+    return !strength || std::visit(
+                            [&](const auto& s) {
+                              if constexpr (requires { s.yield(StrengthState{}); })
+                                return s.yield(StrengthState{}) > limit;
+                              else
+                                return false;  // metals
+                            },
+                            *strength);
+  }
   /// The model of a shear modulus that depends on the state; null if it is the constant of `elastic`.
   const SteinbergGuinan* variable_shear() const {
     return strength ? std::get_if<SteinbergGuinan>(&*strength) : nullptr;

@@ -63,8 +63,11 @@ std::vector<int> odd_components(Shape shape, int axis) {
 /// energy and the momentum along the wall do not notice.
 template <int Dim>
 void mirror(Particles<Dim>& particles, std::size_t i, int axis, double face) {
-  double& x = particles.column(Field::position, axis)[i];
-  x = 2 * face - x;
+  for (Field f : {Field::position, Field::start_position}) {
+    if (!particles.has(f)) continue;
+    double& x = particles.column(f, axis)[i];
+    x = 2 * face - x;
+  }
   // The gradients strain and turn cracks in the coming stages.
   for (Field f :
        {Field::velocity, Field::acceleration, Field::deviatoric_stress, Field::stress_rate, Field::damage_tensor,
@@ -82,7 +85,7 @@ void mirror(Particles<Dim>& particles, std::size_t i, int axis, double face) {
 template <int Dim>
 void wrap_positions(Particles<Dim>& particles, const Boundary& boundary) {
   for (int a = 0; a < Dim; ++a) {
-    if (boundary.kind[a] == BoundaryKind::reflecting) {
+    if (mirrors(boundary.kind[a])) {
       const auto x = particles.column(Field::position, a);
       for (std::size_t i = 0; i < x.size(); ++i) {
         if (x[i] < boundary.min[a]) mirror(particles, i, a, boundary.min[a]);
@@ -91,9 +94,12 @@ void wrap_positions(Particles<Dim>& particles, const Boundary& boundary) {
     }
     if (boundary.kind[a] != BoundaryKind::periodic) continue;
     const double low = boundary.min[a], length = boundary.max[a] - low;
-    for (double& x : particles.column(Field::position, a)) {
-      if (x < low) x += length;
-      if (x >= low + length) x -= length;
+    const auto x = particles.column(Field::position, a);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const double shift = x[i] < low ? length : x[i] >= low + length ? -length : 0;
+      if (shift == 0) continue;
+      x[i] += shift;
+      if (particles.has(Field::start_position)) particles.column(Field::start_position, a)[i] += shift;
     }
   }
 }

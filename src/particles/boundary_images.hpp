@@ -28,6 +28,9 @@ void mirror_symmetric(T* tensor, int axis) {
   }
 }
 
+/// Whether the images behind a face are mirror images.
+inline bool mirrors(BoundaryKind kind) { return kind == BoundaryKind::reflecting || kind == BoundaryKind::symmetry; }
+
 /// Position of the image of x along one axis.
 double image_position(const Boundary& boundary, const Image& image, int axis, double x);
 
@@ -35,8 +38,8 @@ double image_position(const Boundary& boundary, const Image& image, int axis, do
 template <int Dim>
 void make_images(const Particles<Dim>& particles, const Boundary& boundary, double reach, std::vector<Image>& images);
 
-/// Puts particles that left a periodic face back in at the other side, and those that crossed a reflecting face back as
-/// their own mirror images: two particles and their images may pass through each other where matter is cold and
+/// Puts particles that left a periodic face back in at the other side, and those that crossed a mirroring face back as
+/// their own mirror images, with where they started: two particles and their images may pass through each other where matter is cold and
 /// violent.
 template <int Dim>
 void wrap_positions(Particles<Dim>& particles, const Boundary& boundary);

@@ -12,6 +12,12 @@ namespace ejecta {
 
 namespace {
 constexpr double least_margin = 0.03;  ///< of the support radius: what even a resting particle may move
+
+/// Bonded particles must find the neighbours of the start however far these have been drawn apart.
+template <int Dim>
+double stretch_of(const Particles<Dim>& particles, std::size_t i) {
+  return particles.has(Field::stretch) ? particles.column(Field::stretch)[i] : 1.0;
+}
 }  // namespace
 
 template <int Dim>
@@ -46,7 +52,7 @@ void PairLists<Dim>::make_points(const Particles<Dim>& particles, const Settings
   for (int a = 0; a < Dim; ++a) {
     const auto v = particles.column(Field::velocity, a);
     // A reflecting face does not drift along, and images beyond it move the other way.
-    drift_[a] = settings.boundary.kind[a] == BoundaryKind::reflecting
+    drift_[a] = mirrors(settings.boundary.kind[a])
                     ? 0.0
                     : parallel_sum<double>(n, [&](std::size_t i) { return mass[i] * v[i]; }) / total_mass;
   }
@@ -59,7 +65,7 @@ void PairLists<Dim>::make_points(const Particles<Dim>& particles, const Settings
       const double v = particles.column(Field::velocity, a)[i] - drift_[a];
       speed2 += v * v;
     }
-    p.support = settings.support * h[i];
+    p.support = settings.support * h[i] * stretch_of(particles, i);
     p.margin = least_margin * p.support + std::sqrt(speed2) * settings.horizon;
   });
   ellipsoids_.clear();
@@ -69,10 +75,12 @@ void PairLists<Dim>::make_points(const Particles<Dim>& particles, const Settings
       const Mat<Dim> metric = particles.symmetric(Field::smoothing_metric, i), inverse = metric.inverse();
       const Axes axes = axes_of<Dim>(metric);
       Ellipsoid& e = ellipsoids_[i];
-      for (int k = 0; k < symmetric_size<Dim>; ++k) e.metric[k] = particles.column(Field::smoothing_metric, k)[i];
-      for (int a = 0; a < Dim; ++a) e.extent[a] = settings.support * std::sqrt(inverse(a, a));
-      e.per_length = 1 / axes.shortest;
-      points_[i].support = settings.support * axes.longest;
+      const double stretch = stretch_of(particles, i);
+      for (int k = 0; k < symmetric_size<Dim>; ++k)
+        e.metric[k] = particles.column(Field::smoothing_metric, k)[i] / (stretch * stretch);
+      for (int a = 0; a < Dim; ++a) e.extent[a] = settings.support * stretch * std::sqrt(inverse(a, a));
+      e.per_length = 1 / (stretch * axes.shortest);
+      points_[i].support = settings.support * stretch * axes.longest;
     });
   }
   images_.clear();
@@ -232,11 +240,13 @@ bool PairLists<Dim>::valid(const Particles<Dim>& particles, double elapsed) cons
     }
     double grown = 0;
     if (ellipsoids_.empty()) {
-      grown = std::max(0.0, support_per_h_ * h[i] - p.support);
+      grown = std::max(0.0, support_per_h_ * h[i] * stretch_of(particles, i) - p.support);
     } else {
       Symmetric<Dim> then;
       for (int k = 0; k < symmetric_size<Dim>; ++k) then[k] = ellipsoids_[i].metric[k];
-      const double out = outgrowth<Dim>(matrix_of<Dim>(then), particles.symmetric(Field::smoothing_metric, i));
+      const double stretch = stretch_of(particles, i);
+      const double out = outgrowth<Dim>(
+          matrix_of<Dim>(then), Mat<Dim>(particles.symmetric(Field::smoothing_metric, i) / (stretch * stretch)));
       grown = (out - 1) * support_per_h_ / ellipsoids_[i].per_length;
     }
     return p.margin - std::sqrt(moved2) - grown;

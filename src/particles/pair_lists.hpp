@@ -28,7 +28,7 @@ class PairLists {
   /// Builds the lists. Two particles are candidates if r < max(support h_i, support h_j) + margin_i + margin_j, where
   /// the margin of a particle covers its own motion relative to the mean for the horizon: fast or far-flung particles
   /// widen their own search only. With smoothing tensors either ellipsoid may reach the other, |H_i x| < support or
-  /// |H_j x| < support, each widened by the margins.
+  /// |H_j x| < support, each widened by the margins. The support of bonded particles is drawn out with their bonds.
   void build(const Particles<Dim>& particles, const Settings& settings);
 
   /// True while no particle has moved (or grown its support) by more than its margin since the lists were built at an

@@ -137,6 +137,9 @@ void check_scene(const Scene& scene, const Document& document, Problems& problem
       report(path + ".name", fmt::format("expected a name of its own, got \"{}\" again", body.name));
     used_materials.insert(body.material);
     check_body(scene, body, path, report);
+    const auto named = [&](const Body& other) { return &other != &body && other.name == body.weld; };
+    if (body.weld != "auto" && body.weld != "none" && std::none_of(scene.bodies.begin(), scene.bodies.end(), named))
+      report(path + ".weld", fmt::format("expected the name of another body, none or auto, got \"{}\"", body.weld));
     check_profile(scene, body, path + ".profile", report);
   }
   for (const auto& [name, values] : scene.materials)

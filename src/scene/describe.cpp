@@ -20,6 +20,8 @@ void describe(Describer& d, Body& b) {
   d.number("pressure", b.pressure, "Pa", non_negative, "of a gas at the start; sets its specific energy");
   d.number("specific_energy", b.specific_energy, "J/kg", any_number, "at the start, where no pressure is given");
   d.number("spacing_factor", b.spacing_factor, "1", positive, "particle spacing relative to resolution.spacing");
+  d.text("weld", b.weld,
+         "name of a body it is one piece with; \"none\"; \"auto\": a driven body holds those of its material");
   d.flag("driven", b.driven, "keeps its velocity whatever pulls at it, and never breaks: a grip or a piston");
   d.number("jitter", b.jitter, "1", between(0, 1), "random displacement along each axis, up to this many spacings");
 }
@@ -45,8 +47,13 @@ void describe(Describer& d, Numerics& n) {
            "asph: longest over shortest axis of a smoothing ellipsoid");
   d.integer("shape_interval", n.shape_interval, at_least(1),
             "asph: steps between votes on the shape of H, which moves with the flow between them");
-  d.flag("gradient_correction", n.gradient_correction, "velocity gradients exact for linear fields");
-  d.flag("balsara", n.balsara, "shear switch on the viscosity");
+  d.choice("gradient_correction", n.gradient_correction,
+           "gradients exact for linear fields, forces their adjoint; auto: unless all is ideal gas");
+  d.choice("balsara", n.balsara, "shear switch on the viscosity; auto: unless all is ideal gas");
+  d.choice("shock_switch", n.shock_switch,
+           "the viscosity decays to a tenth where no shock has come by; auto: unless all is ideal gas");
+  d.choice("bonds", n.bonds,
+           "elastic matter keeps the neighbours of the start; auto: where it bears strains above a twentieth");
   d.number("viscosity_alpha", n.viscosity_alpha, "1", non_negative, "linear coefficient of Monaghan's viscosity");
   d.number("viscosity_beta", n.viscosity_beta, "1", non_negative, "quadratic coefficient of Monaghan's viscosity");
   d.number("courant", n.courant, "1", {.min = 0, .max = 1, .open_min = true}, "time step in signal crossings of h");
@@ -63,6 +70,10 @@ void describe(Describer& d, Boundary& b) {
     d.choice(axes[k], b.kind[k], fmt::format("the two faces across {}", axes[k]));
   d.triple("min", b.min, "m", "lower corner of the box; components of open axes do not matter");
   d.triple("max", b.max, "m", "upper corner of the box; components of open axes do not matter");
+}
+
+void describe(Describer& d, Contact& c) {
+  d.number("friction", c.friction, "1", non_negative, "coefficient, between bodies and on walls; 0: they slide");
 }
 
 void describe(Describer& d, InSitu& i) {
@@ -120,6 +131,8 @@ void describe(Describer& d, Scene& s) {
   describe(d, s.numerics);
   d.section("boundary", "faces of a box around everything");
   describe(d, s.boundary);
+  d.section("contact", "bodies and walls that touch: they press and part, and slide or rub");
+  describe(d, s.contact);
   d.section("insitu", "pictures while the run goes on");
   describe(d, s.insitu);
   d.section("insitu.ranges", "field name = fixed colour range");

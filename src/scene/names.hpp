@@ -13,12 +13,15 @@ constexpr auto enum_names(Kernel) {
 constexpr auto enum_names(SchemeKind) { return std::to_array<std::string_view>({"sph", "asph"}); }
 constexpr auto enum_names(Precision) { return std::to_array<std::string_view>({"double", "mixed"}); }
 constexpr auto enum_names(DensityMethod) { return std::to_array<std::string_view>({"continuity", "summation"}); }
-constexpr auto enum_names(BoundaryKind) { return std::to_array<std::string_view>({"open", "periodic", "reflecting"}); }
+constexpr auto enum_names(BoundaryKind) {
+  return std::to_array<std::string_view>({"open", "periodic", "reflecting", "symmetry"});
+}
 constexpr auto enum_names(DistensionSolver) {
   return std::to_array<std::string_view>({"safe_newton", "bisection", "newton"});
 }
 constexpr auto enum_names(Lattice) { return std::to_array<std::string_view>({"cubic", "hexagonal"}); }
 constexpr auto enum_names(OnError) { return std::to_array<std::string_view>({"continue", "abort"}); }
+constexpr auto enum_names(Switch) { return std::to_array<std::string_view>({"auto", "false", "true"}); }
 constexpr auto enum_names(FragmentLink) { return std::to_array<std::string_view>({"auto", "spacing", "support"}); }
 
 /// The word for one choice: name_of(Kernel::wendland_c2) is "wendland_c2".

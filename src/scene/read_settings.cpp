@@ -124,6 +124,8 @@ struct Assign {
   }
   void operator()(const Choice& choice) const {
     const auto* text = std::get_if<std::string>(&literal.value);
+    const std::string flag = std::holds_alternative<bool>(literal.value) ? to_text(literal) : "";  // true, false, auto
+    if (!flag.empty()) text = &flag;
     const auto found = text ? std::find(choice.words.begin(), choice.words.end(), *text) : choice.words.end();
     if (found != choice.words.end()) return choice.set(static_cast<std::size_t>(found - choice.words.begin()));
     const std::string hint = text ? nearest_word(*text, choice.words) : "";

@@ -22,10 +22,12 @@ enum class Kernel { cubic_spline, quintic_spline, wendland_c2, wendland_c4 };
 enum class SchemeKind { sph, asph };
 enum class Precision { double_precision, mixed };
 enum class DensityMethod { continuity, summation };
-enum class BoundaryKind { open, periodic, reflecting };
+/// reflecting: a wall, which solids press against and leave; symmetry: a plane that matter goes on behind.
+enum class BoundaryKind { open, periodic, reflecting, symmetry };
 enum class DistensionSolver { safe_newton, bisection, newton };
 enum class Lattice { cubic, hexagonal };
 enum class OnError { continue_run, abort };
+enum class Switch { automatic, off, on };
 enum class FragmentLink { automatic, spacing, support };
 
 /// Formulas that replace the uniform values of a body at the start (formula.hpp says of what). Empty: none.
@@ -53,6 +55,7 @@ struct Body {
   double specific_energy = 0;        ///< J/kg; used where pressure is not given
   double spacing_factor = 1;         ///< particle spacing relative to resolution.spacing
   std::string origin;                ///< where the scene says so: "inputs/x.toml:14"
+  std::string weld = "auto";         ///< body it is one piece with; none; auto: see describe.cpp
   bool driven = false;               ///< keeps its velocity whatever pulls at it, and never breaks
   double jitter = 0;                 ///< random displacement along each axis, up to this many spacings
   Profile profile;
@@ -67,10 +70,12 @@ struct Numerics {
   double smoothing_growth = 1.5;  ///< h stays within [1/4, this] of its initial value; 1 keeps h constant
   double largest_aspect = 10;     ///< ASPH: longest over shortest axis of the smoothing ellipsoid
   int shape_interval = 10;        ///< ASPH: steps between votes on the shape of H; between them it moves with the flow
-  bool gradient_correction = false;  ///< velocity gradients exact for linear fields
-  bool balsara = false;              ///< shear switch on the viscosity
-  double viscosity_alpha = 1;        ///< linear coefficient of Monaghan's viscosity
-  double viscosity_beta = 2;         ///< quadratic coefficient
+  Switch gradient_correction = Switch::automatic;  ///< gradients exact for linear fields, and forces their adjoint
+  Switch balsara = Switch::automatic;              ///< shear switch on the viscosity
+  Switch shock_switch = Switch::automatic;         ///< the viscosity decays where there is no shock
+  Switch bonds = Switch::automatic;                ///< elastic matter holds on to the neighbours of the start
+  double viscosity_alpha = 1;                      ///< linear coefficient of Monaghan's viscosity
+  double viscosity_beta = 2;                       ///< quadratic coefficient
   double courant = 0.25;
   DistensionSolver distension_solver = DistensionSolver::safe_newton;
   double distension_tolerance = 1e-12;
@@ -90,6 +95,11 @@ struct ColourRange {
 
 /// Stands for the default set among insitu.pipelines.
 inline constexpr std::string_view default_pipelines_name = "default";
+
+/// What bodies and walls do where they touch.
+struct Contact {
+  double friction = 0;  ///< coefficient
+};
 
 struct InSitu {
   bool enabled = true;
@@ -130,6 +140,7 @@ struct Scene {
   std::vector<Body> bodies;
   Numerics numerics;
   Boundary boundary;
+  Contact contact;
   InSitu insitu;
   FragmentSettings fragments;
   OutputSettings output;

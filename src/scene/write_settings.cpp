@@ -52,7 +52,10 @@ struct ToToml {
     for (const std::string& text : *texts) list += (list.empty() ? "" : ", ") + quoted(text);
     return "[" + list + "]";
   }
-  std::string operator()(const Choice& choice) const { return quoted(choice.get()); }
+  std::string operator()(const Choice& choice) const {
+    const std::string word = choice.get();
+    return word == "true" || word == "false" ? word : quoted(word);
+  }
 };
 
 std::string toml_of(const Setting& setting) { return std::visit(ToToml{setting}, setting.target); }

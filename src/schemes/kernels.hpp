@@ -1,7 +1,9 @@
 #pragma once
 /// Smoothing kernels, written once over a value type V (double or a vector of lanes). q = r/h >= 0. They are given
 /// without normalisation: W(r, h) = norm<Dim> / h^Dim value(q). Beyond the support everything is exactly zero.
-/// `slope_over_q` is W'(q)/q <= 0; the reciprocal of q is handed in because the pair loop has it at hand.
+/// `slope_over_q` is W'(q)/q <= 0; the reciprocal of q is handed in because its callers have it at hand.
+/// The pair loop takes a shorter form in a = max(0, 1 - q/support): -W'(q) = reduced_scale reduced_slope(a), times q
+/// unless reduced_over_r.
 #include <numbers>
 
 #include "base/simd.hpp"
@@ -49,6 +51,14 @@ struct CubicSpline {
     const V a = kernel_detail::positive(S(2) - q), b = kernel_detail::positive(S(1) - q);
     return (S(3) * b * b - S(0.75) * a * a) * q_reciprocal;
   }
+  static constexpr bool reduced_over_r = true;
+  static constexpr double reduced_scale = 3;
+  template <class V>
+  static V reduced_slope(V a) {
+    using S = kernel_detail::Scalar<V>;
+    const V b = kernel_detail::positive(V(a + a - S(1)));
+    return a * a - b * b;
+  }
 };
 
 /// Quintic B-spline M6 [Monaghan 2005].
@@ -70,6 +80,17 @@ struct QuinticSpline {
             c = kernel_detail::positive(S(1) - q);
     return (S(30) * (b * b * b * b) - S(5) * (a * a * a * a) - S(75) * (c * c * c * c)) * q_reciprocal;
   }
+  static constexpr bool reduced_over_r = true;
+  static constexpr double reduced_scale = 5;
+  template <class V>
+  static V reduced_slope(V s) {
+    using S = kernel_detail::Scalar<V>;
+    V a = S(3) * s, b = kernel_detail::positive(V(a - S(1))), c = kernel_detail::positive(V(a - S(2)));
+    a *= a;
+    b *= b;
+    c *= c;
+    return a * a - S(6) * (b * b) + S(15) * (c * c);
+  }
 };
 
 /// Wendland C2 scaled to support 2h [Dehnen & Aly 2012].
@@ -89,6 +110,12 @@ struct WendlandC2 {
     const V a = kernel_detail::positive(S(1) - S(0.5) * q);
     return S(-5) * a * a * a;
   }
+  static constexpr bool reduced_over_r = false;
+  static constexpr double reduced_scale = 5;
+  template <class V>
+  static V reduced_slope(V a) {
+    return a * a * a;
+  }
 };
 
 /// Wendland C4 scaled to support 2h [Dehnen & Aly 2012].
@@ -107,6 +134,14 @@ struct WendlandC4 {
     using S = kernel_detail::Scalar<V>;
     const V a = kernel_detail::positive(S(1) - S(0.5) * q);
     return S(-14.0 / 3) * (S(1) + S(2.5) * q) * a * a * a * a * a;
+  }
+  static constexpr bool reduced_over_r = false;
+  static constexpr double reduced_scale = 14.0 / 3;
+  template <class V>
+  static V reduced_slope(V a) {
+    using S = kernel_detail::Scalar<V>;
+    const V a2 = a * a;
+    return a2 * a2 * (S(6) * a - S(5) * a2);
   }
 };
 

@@ -8,6 +8,7 @@
 #include "particles/pair_lists.hpp"
 #include "particles/particles.hpp"
 #include "scene/scene.hpp"
+#include "schemes/pair_records.hpp"
 
 namespace ejecta {
 
@@ -15,15 +16,17 @@ namespace ejecta {
 struct PairPassSettings {
   Kernel kernel = Kernel::wendland_c2;
   Precision precision = Precision::double_precision;
-  bool stress = false;               ///< full stress tensor; otherwise pressure alone
+  bool stress = false;               ///< stress tensors and pieces; otherwise pressure alone
   bool velocity_gradient = false;    ///< store dv_a/dx_b (always with stress)
-  bool gradient_correction = false;  ///< make it exact for linear velocity fields
+  bool gradient_correction = false;  ///< make it exact for linear velocity fields, and forces its adjoint (with stress)
   bool tensor = false;               ///< smoothing tensors instead of lengths (velocity gradients always stored)
   bool coupled = false;              ///< tensor damage cuts the stress (always with stress)
-  std::vector<char> cut_by_cracks;   ///< if coupled, by material number: whether its damage tensor cuts pairs
+  bool bonded = false;               ///< some particles keep the neighbours of the start (always with stress)
   double viscosity_alpha = 1, viscosity_beta = 2;
+  bool touches = false;    ///< there are several pieces, or a solid and a wall
+  double friction = 0;     ///< coefficient of friction between pieces
   double length_unit = 1;  ///< a power of two near the particle spacing [m]
-  Boundary boundary;
+  PairRules rules;
 };
 
 template <int Dim>
@@ -31,24 +34,39 @@ class PairPass {
  public:
   virtual ~PairPass() = default;
 
-  /// Density by summation: rho_i = sum_j m_j W(r_ij, h_i), and the zeroth moment.
+  /// Density by summation over the volumes that the particles share: rho_i = m_i sum_j W(r_ij, h_i), and the zeroth
+  /// moment. Partners count by number, not by mass, so that a light gas keeps its density beside a heavy one [Ott &
+  /// Schnetter 2003; Hu & Adams 2006].
   /// reads position, smoothing_length, mass; writes density, neighbour_sum.
   virtual void density(Particles<Dim>& particles, const PairLists<Dim>& lists) = 0;
 
-  /// Rates by pair forces, with sigma = -P I + S and the gradient averaged over both particles' h:
-  ///   dv_i/dt = sum_j m_j (sigma_i/rho_i^2 + sigma_j/rho_j^2 - Pi_ij I) . grad_i W_ij
-  ///   du_i/dt = sum_j m_j (v_j - v_i) . (sigma_i/rho_i^2 - Pi_ij/2 I) . grad_i W_ij
-  ///   dv_a/dx_b = 1/rho_i sum_j m_j (v_j - v_i)_a (grad_i W_ij)_b, times the inverse of the same sum over (x_j - x_i)
-  ///               if corrected
-  /// [Monaghan 2005, eqs 2.37, 3.3; Randles & Libersky 1996 for the correction]; Pi is Monaghan's viscosity (1992),
-  /// with the switch of Balsara (1995) and (1/rho_i + 1/rho_j)/2 as its 1/rho. The energy rate is each side's own share
-  /// of the work of the pair force, so the two shares of a pair add up to all of it.
+  /// Rates by pair forces. V = m/rho; g_ij is the kernel gradient grad_i W_ij, averaged over both particles' h;
+  /// sigma = -P I + S. Within a piece (PairRules):
+  ///   R_i = sum_j V_j v_ji g_ij^T    M_i = sum_j V_j x_ji g_ij^T    L_i = R_i M_i^-1    T_i = sigma_i M_i^-T
+  ///   dv_i/dt = 1/rho_i sum_j V_j [(T_i + T_j) g_ij - q_ij x_ji (x_ji.g_ij)/r^2]
+  ///   du_i/dt = 1/rho_i [T_i : R_i - 1/2 sum_j V_j q_ij v_ji.x_ji (x_ji.g_ij)/r^2]
+  /// with L = dv_a/dx_b stored (gradient_correction.hpp: what becomes of few neighbours; M = I if not corrected). The
+  /// force is the adjoint of the gradient: the work of the stress in L is the heat, and with the viscosity along the
+  /// pair linear and angular momentum are exact. Weights by volume keep contacts of very different densities at rest.
+  /// q = f rho_ij (-alpha c mu + beta mu^2) is Monaghan's viscosity (1992), f the mean of both factors; rho_ij is
+  /// the mean density, at most twice the lighter one: light matter is not thrown off heavy matter.
+  ///
+  /// Particles of different pieces, and a solid and a wall, are no neighbours. They press on each other along the pair,
+  ///   dv_i/dt += -1/rho_i sum_j V_j (p_i + p_j + q_ij) x_ji (x_ji.g_ij)/r^2,    p_i = max(0, -n_i.sigma_i n_i),
+  /// n_i the direction of sum_j V_j g_ij over other pieces, and heat by their own shares of the work: what touches
+  /// pushes, never pulls, and slides. Friction adds min(mu (p_i + p_j + q_ij), rho_ij c |v_t|) against the sliding
+  /// velocity v_t.
+  ///
+  /// Bonded, particles that hold on to their first neighbours (bond = 1) take W and its gradient at the places of the
+  /// start: nothing clumps under tension [Belytschko et al. 2000], and M^-1 brings the deformation in. Bonded particles
+  /// of one piece that were further apart than twice the support touch like strangers.
+  ///
   /// Coupled, S is what cracks let through (cracked_stress.hpp), and coupled_gradient is the velocity gradient summed
   /// with weights f_ij = 1 - max(n.D_i n, n.D_j n), n the direction of the pair (D = 0 where a material is not cut): an
-  /// opening crack does not strain the matter beside it. It is always corrected, so that cracked matter turns with its
-  /// body.
-  /// Reads what PairRecord::pack reads; writes acceleration, heating, neighbour_sum, approach_speed, velocity_gradient,
-  /// coupled_gradient.
+  /// opening crack does not strain the matter beside it.
+  ///
+  /// Reads what PairRecord reads; writes acceleration, heating, neighbour_sum, approach_speed, velocity_gradient,
+  /// coupled_gradient, stretch (of bonds: the largest |x_ij|/|X_ij|, at least 1).
   virtual void rates(Particles<Dim>& particles, const PairLists<Dim>& lists, std::span<const double> intact) = 0;
 
   virtual std::size_t bytes() const = 0;

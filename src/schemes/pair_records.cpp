@@ -5,6 +5,7 @@
 
 #include "base/parallel.hpp"
 #include "schemes/cracked_stress.hpp"
+#include "schemes/gradient_correction.hpp"
 
 namespace ejecta {
 
@@ -17,19 +18,10 @@ double power(double a) {
   return Dim == 2 ? a * a : a * a * a;
 }
 
-template <class T, class R, int Dim>
-void set_position(T* record, int axis, double x) {
-  record[R::x + axis] = static_cast<T>(x);
-  if constexpr (R::split) record[R::x_low + axis] = static_cast<T>(x - static_cast<double>(record[R::x + axis]));
-}
-
-/// Mirrors what changes sign at a face normal to `axis`.
-template <class T, class R, int Dim, RecordKind Kind>
-void mirror(T* record, int axis) {
-  record[R::v + axis] = -record[R::v + axis];
-  if constexpr (Kind.stress) mirror_symmetric<Dim>(record + R::stress, axis);
-  if constexpr (Kind.tensor) mirror_symmetric<Dim>(record + R::metric, axis);
-  if constexpr (Kind.coupled) mirror_symmetric<Dim>(record + R::damage, axis);
+template <class T, class R>
+void set_position(T* record, int place, int low, double x) {
+  record[place] = static_cast<T>(x);
+  if constexpr (R::split) record[low] = static_cast<T>(x - static_cast<double>(record[place]));
 }
 
 /// The columns of one field, looked up once.
@@ -39,75 +31,114 @@ struct Columns {
   std::size_t count = 0;
 
   Columns() = default;
-  Columns(const Particles<Dim>& particles, Field field)
-      : count(static_cast<std::size_t>(components(info(field).shape, Dim))) {
+  Columns(const Particles<Dim>& particles, Field field) {
+    if (!particles.has(field)) return;
+    count = static_cast<std::size_t>(components(info(field).shape, Dim));
     for (std::size_t k = 0; k < count; ++k) of[k] = particles.column(field, static_cast<int>(k));
   }
   double operator()(std::size_t k, std::size_t i) const { return of[k][i]; }
 };
 
+/// D of a particle; 0 where its material is not cut by cracks.
+template <int Dim>
+Symmetric<Dim> cracks_of(const Particles<Dim>& particles, const Columns<Dim>& damage, const PairRules& rules,
+                         std::size_t i) {
+  Symmetric<Dim> cracks = Symmetric<Dim>::Zero();
+  if (rules.cut_by_cracks[static_cast<std::size_t>(particles.label(Label::material)[i])])
+    for (std::size_t k = 0; k < damage.count; ++k) cracks[static_cast<int>(k)] = damage(k, i);
+  return cracks;
+}
+
+/// Mirrors at a face normal to `axis` what pack() fills in.
+template <class T, class R, int Dim, RecordKind Kind>
+void mirror(T* record, int axis) {
+  record[R::v + axis] = -record[R::v + axis];
+  if constexpr (Kind.tensor) mirror_symmetric<Dim>(record + R::metric, axis);
+  if constexpr (Kind.coupled) mirror_symmetric<Dim>(record + R::damage, axis);
+}
+
+/// The same of a tensor stored row by row.
+template <int Dim, class T>
+void mirror_tensor(T* tensor, int axis) {
+  for (int other = 0; other < Dim; ++other) {
+    if (other == axis) continue;
+    tensor[axis * Dim + other] *= -1;
+    tensor[other * Dim + axis] *= -1;
+  }
+}
+
+/// How far a particle touches other pieces: from where it is half its size from their surface. Touching sets in over
+/// `onset` of that: in a collision at speed v bodies come nearer by v/c particle sizes only, and a viscosity that acted
+/// on the way there would take the energy that the rebound needs.
+double touching_of(double occupied, const HalfSpace& touched, double size, double h) {
+  constexpr double onset = 0.02;
+  return occupied > 0 ? std::clamp((occupied / touched(0.5 * size / h) - 1) / onset, 0.0, 1.0) : 0;
+}
+
+/// The stress that acts on own neighbours, and on other pieces.
+template <int Dim>
+TouchingStress<Dim> corrected(const Mat<Dim>& sigma, const Surroundings<Dim>& around, std::size_t i) {
+  const auto& sums = around.sums[i];
+  const GradientCorrection<Dim> own = around.correction(sums.moment);
+  if (sums.touched.isZero(0)) return {own.stress(sigma), Mat<Dim>::Zero()};
+  return touching_stress<Dim>(sigma, sums.normal(), own, around.correction(sums.moment + sums.touched));
+}
+
+bool behind_a_wall(const Boundary& boundary, const Image& image) {
+  for (std::size_t a = 0; a < 3; ++a)
+    if (image.mirror[a] != 0 && boundary.kind[a] == BoundaryKind::reflecting) return true;
+  return false;
+}
+
 }  // namespace
 
 template <class T, int Dim, RecordKind Kind>
 void PairRecord<T, Dim, Kind>::pack(const Particles<Dim>& particles, const std::vector<Image>& images,
-                                    const Boundary& boundary, double kernel_norm, double length_unit,
-                                    std::span<const double> intact, std::span<const char> cut_by_cracks,
-                                    std::vector<T>& records) {
+                                    const PairRules& rules, const RecordScales& scales, std::vector<T>& records) {
   using R = PairRecord;
   const std::size_t n = particles.size(), needed = (n + images.size()) * R::size;
   if (records.size() < needed) records.resize(needed + needed / 8);
-  const double to_unit = 1 / length_unit;
-  const bool has_switch = particles.has(Field::shear_switch);
-  const Columns<Dim> position(particles, Field::position), velocity(particles, Field::velocity);
-  Columns<Dim> deviatoric_stress, metric, damage;
-  if constexpr (Kind.stress) deviatoric_stress = {particles, Field::deviatoric_stress};
-  if constexpr (Kind.tensor) metric = {particles, Field::smoothing_metric};
-  if constexpr (Kind.coupled) damage = {particles, Field::damage_tensor};
-  const auto shear_switch = has_switch ? particles.column(Field::shear_switch) : std::span<const double>{};
+  const double to_unit = 1 / scales.length_unit;
+  const Columns<Dim> position(particles, Field::position), velocity(particles, Field::velocity),
+      metric(particles, Field::smoothing_metric), damage(particles, Field::damage_tensor),
+      start(particles, Field::start_position), bond(particles, Field::bond), factor(particles, Field::viscosity_factor);
   const auto h = particles.column(Field::smoothing_length), mass = particles.column(Field::mass),
-             density = particles.column(Field::density), pressure = particles.column(Field::pressure),
-             sound_speed = particles.column(Field::sound_speed);
+             density = particles.column(Field::density), sound_speed = particles.column(Field::sound_speed);
+  const auto body = particles.label(Label::body);
   parallel_for(0, n, [&](std::size_t i) {
     T* r = records.data() + i * R::size;
     for (std::size_t a = 0; a < Dim; ++a) {
-      set_position<T, R, Dim>(r, static_cast<int>(a), position(a, i) * to_unit);
+      const int axis = static_cast<int>(a);
+      set_position<T, R>(r, R::x + axis, R::x_low + axis, position(a, i) * to_unit);
       r[R::v + a] = static_cast<T>(velocity(a, i));
     }
-    const double h_reciprocal = length_unit / h[i], density_reciprocal = 1 / density[i];
+    const double h_reciprocal = scales.length_unit / h[i];
     if constexpr (Kind.tensor) {
       for (std::size_t k = 0; k < metric.count; ++k)
-        r[R::metric + k] = static_cast<T>(metric(k, i) * length_unit * length_unit);
-      r[R::slope_norm] = static_cast<T>(kernel_norm * power<Dim>(h_reciprocal));
+        r[R::metric + k] = static_cast<T>(metric(k, i) * scales.length_unit * scales.length_unit);
+      r[R::slope_norm] = static_cast<T>(scales.kernel_norm * power<Dim>(h_reciprocal));
     } else {
-      r[R::h] = static_cast<T>(h[i] * to_unit);
-      r[R::h_reciprocal] = static_cast<T>(h_reciprocal);
-      r[R::slope_norm] = static_cast<T>(kernel_norm * power<Dim>(h_reciprocal) * h_reciprocal * h_reciprocal);
+      r[R::h] = static_cast<T>(0.05 * h[i] * to_unit);
+      r[R::reach_reciprocal] = static_cast<T>(h_reciprocal / scales.support);
+      r[R::slope_norm] = static_cast<T>(0.5 * scales.slope * scales.kernel_norm * power<Dim>(h_reciprocal) *
+                                        h_reciprocal * (scales.slope_over_r ? 1 : h_reciprocal));
     }
-    r[R::mass] = static_cast<T>(mass[i] * power<Dim>(to_unit));
-    r[R::density_reciprocal] = static_cast<T>(density_reciprocal);
+    r[R::volume] = static_cast<T>(mass[i] / density[i] * power<Dim>(to_unit));
+    r[R::density] = static_cast<T>(density[i]);
     r[R::sound_speed] = static_cast<T>(sound_speed[i]);
-    r[R::shear_switch] = has_switch ? static_cast<T>(shear_switch[i]) : T(1);
-    const double per_density2 = density_reciprocal * density_reciprocal;
-    if constexpr (!Kind.stress) {
-      r[R::stress] = static_cast<T>(-pressure[i] * per_density2);
-    } else {
-      const double scale = intact.empty() ? 1.0 : intact[i];
-      auto deviator = [&](std::size_t k) { return scale * deviatoric_stress(k, i); };
-      Symmetric<Dim> sigma;
-      if constexpr (Dim == 2)
-        sigma << deviator(0), deviator(1), deviator(2);
-      else
-        sigma << deviator(0), deviator(1), -deviator(0) - deviator(1), deviator(2), deviator(3), deviator(4);
-      if constexpr (Kind.coupled) {
-        Symmetric<Dim> cracks = Symmetric<Dim>::Zero();
-        if (cut_by_cracks[static_cast<std::size_t>(particles.label(Label::material)[i])])
-          for (std::size_t k = 0; k < damage.count; ++k) cracks[static_cast<int>(k)] = damage(k, i);
-        if (!cracks.isZero(0))
-          sigma = symmetric_of<Dim>(transmitted<Dim>(matrix_of<Dim>(sigma), matrix_of<Dim>(cracks)));
-        for (int k = 0; k < symmetric_size<Dim>; ++k) r[R::damage + k] = static_cast<T>(cracks[k]);
+    r[R::viscosity_factor] = factor.count ? static_cast<T>(0.5 * factor(0, i)) : T(0.5);
+    if constexpr (Kind.stress)
+      r[R::piece] = rules.pieces.empty() ? T(0) : static_cast<T>(rules.pieces[static_cast<std::size_t>(body[i])]);
+    if constexpr (Kind.bonded) {
+      for (std::size_t a = 0; a < Dim; ++a) {
+        const int axis = static_cast<int>(a);
+        set_position<T, R>(r, R::place + axis, R::place_low + axis, start(a, i) * to_unit);
       }
-      for (int a = 0; a < Dim; ++a) sigma[a] -= pressure[i];
-      for (int k = 0; k < symmetric_size<Dim>; ++k) r[R::stress + k] = static_cast<T>(sigma[k] * per_density2);
+      r[R::bond] = static_cast<T>(bond(0, i) * scales.support * h[i] * to_unit);
+    }
+    if constexpr (Kind.coupled) {
+      const Symmetric<Dim> cracks = cracks_of(particles, damage, rules, i);
+      for (int k = 0; k < symmetric_size<Dim>; ++k) r[R::damage + k] = static_cast<T>(cracks[k]);
     }
   });
   for (std::size_t k = 0; k < images.size(); ++k) {
@@ -116,37 +147,111 @@ void PairRecord<T, Dim, Kind>::pack(const Particles<Dim>& particles, const std::
     std::copy_n(records.data() + image.source * R::size, R::size, r);
     for (int a = 0; a < Dim; ++a) {
       if (image.shift[a] == 0 && image.mirror[a] == 0) continue;
-      const double x = particles.column(Field::position, a)[image.source];
-      set_position<T, R, Dim>(r, a, image_position(boundary, image, a, x) * to_unit);
+      const auto moved = [&](double x) { return image_position(rules.boundary, image, a, x) * to_unit; };
+      set_position<T, R>(r, R::x + a, R::x_low + a, moved(position(static_cast<std::size_t>(a), image.source)));
+      if constexpr (Kind.bonded)
+        set_position<T, R>(r, R::place + a, R::place_low + a, moved(start(static_cast<std::size_t>(a), image.source)));
       if (image.mirror[a] != 0) mirror<T, R, Dim, Kind>(r, a);
+    }
+    // Piece 0 is gas: it presses against the wall by its own images.
+    if constexpr (Kind.stress)
+      if (r[R::piece] != 0 && behind_a_wall(rules.boundary, image)) r[R::piece] = wall;
+  }
+}
+
+template <class T, int Dim, RecordKind Kind>
+void PairRecord<T, Dim, Kind>::pack_touch(const Particles<Dim>& particles, const std::vector<Image>& images,
+                                          const PairRules& rules, const Surroundings<Dim>& around,
+                                          std::vector<T>& records) {
+  using R = PairRecord;
+  const std::size_t n = particles.size();
+  const auto h = particles.column(Field::smoothing_length);
+  const auto body = particles.label(Label::body);
+  parallel_for(0, n, [&](std::size_t i) {
+    T* r = records.data() + i * R::size;
+    const auto& sums = around.sums[i];
+    const Vec<Dim> normal = sums.normal();
+    const double size = rules.sizes[static_cast<std::size_t>(body[i])];
+    r[R::touching] = static_cast<T>(touching_of(sums.occupied, around.half_space, size, h[i]));
+    for (int a = 0; a < Dim; ++a) r[R::normal + a] = static_cast<T>(normal[a]);
+  });
+  for (std::size_t k = 0; k < images.size(); ++k) {
+    const Image& image = images[k];
+    T* r = records.data() + (n + k) * R::size;
+    std::copy_n(records.data() + image.source * R::size + R::touching, Dim + 1, r + R::touching);
+    for (int a = 0; a < Dim; ++a)
+      if (image.mirror[a] != 0) r[R::normal + a] *= -1;
+  }
+}
+
+template <class T, int Dim, RecordKind Kind>
+void PairRecord<T, Dim, Kind>::pack_stress(const Particles<Dim>& particles, const std::vector<Image>& images,
+                                           const PairRules& rules, std::span<const double> intact,
+                                           const Surroundings<Dim>& around, std::vector<T>& records) {
+  using R = PairRecord;
+  const std::size_t n = particles.size();
+  const auto pressure = particles.column(Field::pressure);
+  const Columns<Dim> deviatoric_stress(particles, Field::deviatoric_stress), damage(particles, Field::damage_tensor);
+  parallel_for(0, n, [&](std::size_t i) {
+    T* r = records.data() + i * R::size;
+    if constexpr (!Kind.stress) {
+      r[R::stress] = static_cast<T>(-pressure[i]);
+    } else {
+      const double scale = intact.empty() ? 1.0 : intact[i];
+      auto deviator = [&](std::size_t k) { return scale * deviatoric_stress(k, i); };
+      Symmetric<Dim> s = Symmetric<Dim>::Zero();
+      if (deviatoric_stress.count) {
+        if constexpr (Dim == 2)
+          s << deviator(0), deviator(1), deviator(2);
+        else
+          s << deviator(0), deviator(1), -deviator(0) - deviator(1), deviator(2), deviator(3), deviator(4);
+      }
+      Mat<Dim> sigma = matrix_of<Dim>(s);
+      if constexpr (Kind.coupled)
+        if (const Symmetric<Dim> cracks = cracks_of(particles, damage, rules, i); !cracks.isZero(0))
+          sigma = transmitted<Dim>(sigma, matrix_of<Dim>(cracks));
+      for (int a = 0; a < Dim; ++a) sigma(a, a) -= pressure[i];
+
+      const auto [own, touched] = corrected<Dim>(sigma, around, i);
+      for (int a = 0; a < Dim; ++a)
+        for (int b = 0; b < Dim; ++b) {
+          r[R::stress + a * Dim + b] = static_cast<T>(own(a, b));
+          r[R::press + a * Dim + b] = static_cast<T>(touched(a, b));
+        }
+    }
+  });
+  for (std::size_t k = 0; k < images.size(); ++k) {
+    const Image& image = images[k];
+    const T* source = records.data() + image.source * R::size;
+    T* r = records.data() + (n + k) * R::size;
+    std::copy_n(source + R::stress, R::stresses, r + R::stress);
+    if constexpr (Kind.stress) {
+      std::copy_n(source + R::press, R::stresses, r + R::press);
+      for (int a = 0; a < Dim; ++a) {
+        if (image.mirror[a] == 0) continue;
+        mirror_tensor<Dim>(r + R::stress, a);
+        mirror_tensor<Dim>(r + R::press, a);
+      }
     }
   }
 }
 
-// stress, tensor, coupled
-template struct PairRecord<double, 2, RecordKind{false, false, false}>;
-template struct PairRecord<double, 2, RecordKind{true, false, false}>;
-template struct PairRecord<double, 2, RecordKind{false, true, false}>;
-template struct PairRecord<double, 2, RecordKind{true, true, false}>;
-template struct PairRecord<double, 2, RecordKind{true, false, true}>;
-template struct PairRecord<double, 2, RecordKind{true, true, true}>;
-template struct PairRecord<double, 3, RecordKind{false, false, false}>;
-template struct PairRecord<double, 3, RecordKind{true, false, false}>;
-template struct PairRecord<double, 3, RecordKind{false, true, false}>;
-template struct PairRecord<double, 3, RecordKind{true, true, false}>;
-template struct PairRecord<double, 3, RecordKind{true, false, true}>;
-template struct PairRecord<double, 3, RecordKind{true, true, true}>;
-template struct PairRecord<float, 2, RecordKind{false, false, false}>;
-template struct PairRecord<float, 2, RecordKind{true, false, false}>;
-template struct PairRecord<float, 2, RecordKind{false, true, false}>;
-template struct PairRecord<float, 2, RecordKind{true, true, false}>;
-template struct PairRecord<float, 2, RecordKind{true, false, true}>;
-template struct PairRecord<float, 2, RecordKind{true, true, true}>;
-template struct PairRecord<float, 3, RecordKind{false, false, false}>;
-template struct PairRecord<float, 3, RecordKind{true, false, false}>;
-template struct PairRecord<float, 3, RecordKind{false, true, false}>;
-template struct PairRecord<float, 3, RecordKind{true, true, false}>;
-template struct PairRecord<float, 3, RecordKind{true, false, true}>;
-template struct PairRecord<float, 3, RecordKind{true, true, true}>;
+// stress, tensor, coupled, bonded
+#define EJECTA_RECORDS(T, DIM)                                              \
+  template struct PairRecord<T, DIM, RecordKind{}>;                         \
+  template struct PairRecord<T, DIM, RecordKind{false, true}>;              \
+  template struct PairRecord<T, DIM, RecordKind{true, false}>;              \
+  template struct PairRecord<T, DIM, RecordKind{true, true}>;               \
+  template struct PairRecord<T, DIM, RecordKind{true, false, true}>;        \
+  template struct PairRecord<T, DIM, RecordKind{true, true, true}>;         \
+  template struct PairRecord<T, DIM, RecordKind{true, false, false, true}>; \
+  template struct PairRecord<T, DIM, RecordKind{true, true, false, true}>;  \
+  template struct PairRecord<T, DIM, RecordKind{true, false, true, true}>;  \
+  template struct PairRecord<T, DIM, RecordKind{true, true, true, true}>;
+EJECTA_RECORDS(double, 2)
+EJECTA_RECORDS(double, 3)
+EJECTA_RECORDS(float, 2)
+EJECTA_RECORDS(float, 3)
+#undef EJECTA_RECORDS
 
 }  // namespace ejecta

@@ -6,47 +6,104 @@
 
 #include "particles/boundary_images.hpp"
 #include "particles/particles.hpp"
+#include "schemes/gradient_correction.hpp"
+#include "schemes/half_space.hpp"
 
 namespace ejecta {
 
 /// What the records of a pass hold.
 struct RecordKind {
-  bool stress = false;   ///< the stress tensor, not pressure alone
+  bool stress = false;   ///< the stress as a tensor, corrected, and whom it acts on; not pressure alone
   bool tensor = false;   ///< the smoothing metric, not a smoothing length
   bool coupled = false;  ///< the damage tensor (only with stress)
+  bool bonded = false;   ///< the place at the start (only with stress)
+};
+
+/// Constants of a pass that its records hold as factors, so that the pair loop has less to do.
+struct RecordScales {
+  double kernel_norm = 1;  ///< of the kernel
+  double support = 2;      ///< of the kernel [h]
+  double slope = 1;        ///< of its reduced slope
+  bool slope_over_r = false;
+  double length_unit = 1;  ///< m
+};
+
+/// Who acts on whom, and how.
+struct PairRules {
+  std::vector<double> sizes;        ///< by body: of a particle at the start [m]; needed only with stress
+  std::vector<int> pieces;          ///< by body: bodies of one number are one continuum; empty: all are
+  std::vector<char> cut_by_cracks;  ///< by material: whether its damage tensor cuts the stress
+  Boundary boundary;
+};
+
+/// The piece that stands for whatever is behind a reflecting face.
+inline constexpr int wall = -1;
+
+/// What a first pass over the pairs tells of the surroundings of every particle; needed only with stress.
+template <int Dim>
+struct Surroundings {
+  struct Sums {
+    Mat<Dim> moment = Mat<Dim>::Zero();   ///< M of the own neighbours
+    Mat<Dim> touched = Mat<Dim>::Zero();  ///< what other pieces add to it
+    Vec<Dim> outward = Vec<Dim>::Zero();  ///< sum over other pieces of V_j grad W, in 1/length_unit
+    double occupied = 0;                  ///< sum over other pieces of V_j W
+    /// Towards what is touched; 0 if nothing is.
+    Vec<Dim> normal() const { return occupied > 0 ? Vec<Dim>(outward.normalized()) : outward; }
+  };
+  std::vector<Sums> sums;
+  bool corrects = false;  ///< gradients are corrected by M
+  /// `occupied` of a particle half its own size from what it touches, at u = size/(2 h).
+  HalfSpace half_space;
+
+  GradientCorrection<Dim> correction(const Mat<Dim>& moment) const {
+    return corrects ? gradient_correction<Dim>(moment) : GradientCorrection<Dim>{};
+  }
 };
 
 /// Places within a record. T is the precision of the pass. Lengths are in units of a power of two near the particle
 /// spacing, so that single precision neither over- nor underflows; everything else is SI.
 /// In single precision a position is the sum of two floats, and differences of positions carry full relative precision.
-/// Symmetric tensors are stored xx yy xy | xx yy zz xy xz yz.
+/// Symmetric tensors are stored xx yy xy | xx yy zz xy xz yz, others row by row.
 template <class T, int Dim, RecordKind Kind>
 struct PairRecord {
   static constexpr bool split = sizeof(T) == sizeof(float);
-  static constexpr int stresses = Kind.stress ? symmetric_size<Dim> : 1;
+  static constexpr int stresses = Kind.stress ? Dim * Dim : 1;
   static constexpr int x = 0;
-  static constexpr int x_low = x + Dim;                                                 ///< only if split
-  static constexpr int v = x_low + (split ? Dim : 0);                                   ///< velocity
-  static constexpr int h = v + Dim;                                                     ///< unless tensor
-  static constexpr int h_reciprocal = h + 1;                                            ///< 1/h, unless tensor
-  static constexpr int metric = v + Dim;                                                ///< G = H H, if tensor
-  static constexpr int slope_norm = v + Dim + (Kind.tensor ? symmetric_size<Dim> : 2);  ///< norm/h^(Dim+2); norm det(H)
-  static constexpr int mass = slope_norm + 1;                                           ///< m / unit^Dim
-  static constexpr int density_reciprocal = mass + 1;                                   ///< 1/rho
-  static constexpr int sound_speed = density_reciprocal + 1;
-  static constexpr int shear_switch = sound_speed + 1;
-  /// sigma/rho^2 with sigma = -P I + S, S as cracks leave it, or -P/rho^2 alone
-  static constexpr int stress = shear_switch + 1;
-  static constexpr int damage = stress + stresses;  ///< damage tensor, if coupled
-  static constexpr int size = stress + stresses + (Kind.coupled ? symmetric_size<Dim> : 0);
+  static constexpr int x_low = x + Dim;                ///< only if split
+  static constexpr int v = x_low + (split ? Dim : 0);  ///< velocity
+  static constexpr int h = v + Dim;                    ///< a twentieth of it, unless tensor
+  static constexpr int reach_reciprocal = h + 1;       ///< 1/(support h), unless tensor
+  static constexpr int metric = v + Dim;               ///< G = H H, if tensor
+  static constexpr int slope_norm = v + Dim + (Kind.tensor ? symmetric_size<Dim> : 2);
+  static constexpr int volume = slope_norm + 1;  ///< V = m/rho
+  static constexpr int density = volume + 1;     ///< rho
+  static constexpr int sound_speed = density + 1;
+  static constexpr int viscosity_factor = sound_speed + 1;     ///< half of it
+  static constexpr int stress = viscosity_factor + 1;          ///< T (gradient_correction.hpp), or -P alone [Pa]
+  static constexpr int piece = stress + stresses;              ///< with stress
+  static constexpr int place = piece + (Kind.stress ? 1 : 0);  ///< at the start, if bonded
+  static constexpr int place_low = place + (Kind.bonded ? Dim : 0);
+  static constexpr int bond = place_low + (Kind.bonded && split ? Dim : 0);  ///< support h of a bonded particle, else 0
+  static constexpr int damage = bond + (Kind.bonded ? 1 : 0);                ///< damage tensor, if coupled
+  static constexpr int touching = damage + (Kind.coupled ? symmetric_size<Dim> : 0);  ///< other pieces, 0 to 1
+  static constexpr int normal = touching + (Kind.stress ? 1 : 0);  ///< unit vector towards them, or 0
+  static constexpr int press = normal + (Kind.stress ? Dim : 0);   ///< T that acts on them [Pa]
+  static constexpr int size = press + (Kind.stress ? stresses : 0);
 
-  /// Fills one record for each particle, then one for each image. `length_unit` [m] is the unit above.
-  /// reads position, velocity, smoothing_length or smoothing_metric, mass, density, pressure, sound_speed, and where
-  /// they exist shear_switch, deviatoric_stress, damage_tensor and the fraction of the deviator that damage leaves,
-  /// `intact` (empty: all of it). `cut_by_cracks` says by material number whose damage tensors count; others are zero.
-  static void pack(const Particles<Dim>& particles, const std::vector<Image>& images, const Boundary& boundary,
-                   double kernel_norm, double length_unit, std::span<const double> intact,
-                   std::span<const char> cut_by_cracks, std::vector<T>& records);
+  /// Fills one record for each particle, then one for each image, but for stress and what touches other pieces.
+  /// Reads position, velocity, smoothing_length or smoothing_metric, mass, density, sound_speed, and where they exist
+  /// viscosity_factor, damage_tensor, start_position and bond.
+  static void pack(const Particles<Dim>& particles, const std::vector<Image>& images, const PairRules& rules,
+                   const RecordScales& scales, std::vector<T>& records);
+
+  /// Fills in touching and normal.
+  static void pack_touch(const Particles<Dim>& particles, const std::vector<Image>& images, const PairRules& rules,
+                         const Surroundings<Dim>& around, std::vector<T>& records);
+
+  /// Fills in the stress that acts on the partners. Reads pressure and where they exist deviatoric_stress and
+  /// damage_tensor. `intact` is the fraction of the deviator that damage leaves (empty: all of it).
+  static void pack_stress(const Particles<Dim>& particles, const std::vector<Image>& images, const PairRules& rules,
+                          std::span<const double> intact, const Surroundings<Dim>& around, std::vector<T>& records);
 };
 
 /// The power of two just below the length.

@@ -17,50 +17,58 @@ constexpr S guard = sizeof(S) == sizeof(float) ? S(1e-30) : S(1e-200);
 template <class V, int Dim, class K, class R>
 struct IsotropicSupport {
   using S = kernel_detail::Scalar<V>;
-  V h, h_reciprocal, slope_norm;  ///< of the lanes i
+  V h, reach_reciprocal, slope_norm;  ///< of the lanes i
 
   template <class Load>
   explicit IsotropicSupport(Load&& load)
-      : h(load(R::h)), h_reciprocal(load(R::h_reciprocal)), slope_norm(load(R::slope_norm)) {}
+      : h(load(R::h)), reach_reciprocal(load(R::reach_reciprocal)), slope_norm(load(R::slope_norm)) {}
 
   struct Pair {
     V slope;   ///< grad_i W_ij = slope (x_j - x_i); 0 exactly where neither reaches the other
-    V moment;  ///< |dW/deta| at eta_i = r/h_i, without the norm of the kernel
+    V moment;  ///< |dW/deta| at eta_i = r/h_i, over moment_scale
+    /// > 0 exactly where one reaches the other.
     V reach() const { return slope; }
     void gradient(const V (&dx)[Dim], V (&g)[Dim]) const {
       for (int a = 0; a < Dim; ++a) g[a] = slope * dx[a];
     }
+    /// The same with a direction along the pair: central(...) (x_j - x_i).
+    V central(const V (&)[Dim], V) const { return slope; }
+    void mask(V keep) { slope *= keep; }
   };
 
   /// r2 = |x_j - x_i|^2; `j` is the record of the partner.
   Pair pair(const V (&)[Dim], V r2, const S* j) const {
-    const V r_reciprocal = simd::reciprocal_sqrt(V(r2 + support_detail::guard<S>));
-    const V r = r2 * r_reciprocal;
-    const V q_i = r * h_reciprocal, q_j = r * j[R::h_reciprocal];
-    const V slope_i = K::slope_over_q(q_i, V(h * r_reciprocal));
-    const V slope_j = K::slope_over_q(q_j, V(j[R::h] * r_reciprocal));
+    const V r = simd::square_root(V(K::reduced_over_r ? V(r2 + support_detail::guard<S>) : r2));
+    const V a_i = kernel_detail::positive(V(S(1) - r * reach_reciprocal)),
+            a_j = kernel_detail::positive(V(S(1) - r * j[R::reach_reciprocal]));
+    const V slope_i = K::reduced_slope(a_i), slope_j = K::reduced_slope(a_j);
     // Each product is rounded before the sum, so that the pair seen from j gives the same number.
-    const V slope = S(-0.5) * (simd::rounded(V(slope_i * slope_norm)) + simd::rounded(V(slope_j * j[R::slope_norm])));
-    return {slope, -q_i * slope_i};
+    V slope = simd::rounded(V(slope_i * slope_norm)) + simd::rounded(V(slope_j * j[R::slope_norm]));
+    if constexpr (K::reduced_over_r) {
+      slope /= r;
+      return {slope, slope_i};
+    } else {
+      return {slope, slope_i - a_i * slope_i};  // q = support (1 - a)
+    }
   }
+  static constexpr double moment_scale = K::reduced_scale * (K::reduced_over_r ? 1 : K::support);
 
-  /// Speed of approach in Monaghan's viscosity (1992): mu = h v.x / (r^2 + 0.01 h^2) <= 0, with h the mean of both.
-  V approach(const Pair&, const V (&dx)[Dim], V r2, const V (&dv)[Dim], V, const V (&)[Dim], const S* j) const {
-    V along = dv[0] * dx[0];
-    for (int a = 1; a < Dim; ++a) along += dv[a] * dx[a];
-    const V mean_h = S(0.5) * (h + j[R::h]);
-    return mean_h * simd::min(along, V{}) * simd::reciprocal(V(r2 + S(0.01) * mean_h * mean_h));
+  /// Speed of approach in Monaghan's viscosity (1992): mu = h v.x / (r^2 + 0.01 h^2) <= 0, with h the mean of both;
+  /// `closing` is v.x.
+  V approach(const Pair&, V r2, V closing, const S* j) const {
+    const V tenth = h + j[R::h];
+    return S(10) * (tenth * simd::min(closing, V{}) / (r2 + tenth * tenth));
   }
 
   /// Kernel value and |dW/deta| at eta_i, both without norm.
   void value(const V (&)[Dim], V r2, V& w, V& moment) const {
-    const V q = r2 * simd::reciprocal_sqrt(V(r2 + support_detail::guard<S>)) * h_reciprocal;
+    const V q = S(K::support) * simd::square_root(V(r2 + support_detail::guard<S>)) * reach_reciprocal;
     w = K::value(q);
     moment = -q * K::slope_over_q(q, V(simd::reciprocal(V(q + support_detail::guard<S>))));
   }
   /// Norm of the kernel of lane k [1/unit^Dim].
   double norm(int k) const {
-    const double n = static_cast<double>(h_reciprocal[k]);
+    const double n = K::support * static_cast<double>(reach_reciprocal[k]);
     return K::template norm<Dim> * (Dim == 2 ? n * n : n * n * n);
   }
 };
@@ -86,6 +94,15 @@ struct TensorSupport {
     void gradient(const V (&)[Dim], V (&g)[Dim]) const {
       for (int a = 0; a < Dim; ++a) g[a] = along[a];
     }
+    /// What the gradient is along the pair, central(...) (x_j - x_i): x.G x > 0 keeps its sign.
+    V central(const V (&dx)[Dim], V r2) const {
+      V sum = along[0] * dx[0];
+      for (int a = 1; a < Dim; ++a) sum += along[a] * dx[a];
+      return sum * simd::reciprocal(V(r2 + support_detail::guard<S>));
+    }
+    void mask(V keep) {
+      for (int a = 0; a < Dim; ++a) along[a] *= keep;
+    }
   };
 
   Pair pair(const V (&dx)[Dim], V, const S* j) const {
@@ -106,13 +123,12 @@ struct TensorSupport {
     return p;
   }
 
-  /// Monaghan's mu with the direction of the kernel gradient in place of that of the pair, and eta in place of r/h:
-  /// mu = v.n eta/(eta^2 + 0.01). The viscous force is along n, so its work always heats.
-  V approach(const Pair& p, const V (&)[Dim], V, const V (&)[Dim], V work, const V (&g)[Dim], const S*) const {
-    V g2 = g[0] * g[0];
-    for (int a = 1; a < Dim; ++a) g2 += g[a] * g[a];
+  static constexpr double moment_scale = 1;
+
+  /// Monaghan's mu with eta, the mean of both, in place of r/h: mu = (v.x/r) eta/(eta^2 + 0.01).
+  V approach(const Pair& p, V r2, V closing, const S*) const {
     const V eta = p.mean_eta;
-    return simd::min(work, V{}) * simd::reciprocal_sqrt(V(g2 + support_detail::guard<S>)) * eta *
+    return simd::min(closing, V{}) * simd::reciprocal_sqrt(V(r2 + support_detail::guard<S>)) * eta *
            simd::reciprocal(V(eta * eta + S(0.01)));
   }
 

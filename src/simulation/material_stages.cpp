@@ -56,6 +56,9 @@ void dense_state(Simulation<Dim>& sim, const EosT& eos, Range range, const Shear
   });
 }
 
+/// Matter that is drawn out or shocked beyond this goes on without the neighbours of the start.
+constexpr double longest_stretch = 3, most_compressed = 1.5;
+
 }  // namespace
 
 template <int Dim>
@@ -123,6 +126,22 @@ void strength(Simulation<Dim>& sim) {
   }
 }
 
+template <int Dim>
+void bonds(Simulation<Dim>& sim) {
+  Particles<Dim>& p = sim.particles;
+  const bool yields = p.has(Field::plastic_strain);
+  for (std::size_t m = 0; m < sim.materials.size(); ++m) {
+    const Range range = p.material_ranges()[m];
+    const double densest = most_compressed * sim.materials[m].bulk_density();
+    parallel_for(range.begin, range.end, [&](std::size_t i) {
+      const bool torn = p.column(Field::stretch)[i] > longest_stretch || p.column(Field::density)[i] > densest;
+      if (torn || (yields && p.column(Field::plastic_strain)[i] > 0)) p.column(Field::bond)[i] = 0;
+    });
+  }
+}
+
+template void bonds<2>(Simulation<2>&);
+template void bonds<3>(Simulation<3>&);
 template void equation_of_state<2>(Simulation<2>&);
 template void equation_of_state<3>(Simulation<3>&);
 template void strength<2>(Simulation<2>&);

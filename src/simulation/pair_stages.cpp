@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/parallel.hpp"
 #include "simulation/particle_state.hpp"
@@ -16,9 +17,51 @@ double curl(const Mat<Dim>& L) {
   if constexpr (Dim == 3) return Vec<3>(L(2, 1) - L(1, 2), L(0, 2) - L(2, 0), L(1, 0) - L(0, 1)).norm();
 }
 
-/// Continuity knows a solid particle's density by its neighbours alone: one that is being torn off all of them would
-/// come to nothing, and the time step with it. Thinner than this, relative to the body, it expands no further.
-constexpr double least_relative_density = 1e-3;
+/// Continuity drifts where neighbours change places, as in vapour and torn matter: a particle may become a thousand
+/// times thinner than what its neighbours leave it, and the stress of the next one throws it away. Its density is held
+/// within these shares of mass over spacing, known from the zeroth moment; intact matter stays well within. Only a
+/// particle that has not had to widen its support has all its neighbours, and may be too dense.
+constexpr double least_density_share = 0.6, most_density_share = 2;
+constexpr double least_filling = 0.85, widest_support = 1.15;
+
+/// Share of the viscosity that is left where nothing is compressed.
+constexpr double least_viscosity = 0.1;
+
+/// Factor of the bounds: particles of a coarse body count the finer neighbours of another as their own.
+double density_share(const Scene& scene, int dim) {
+  double finest = std::numeric_limits<double>::infinity(), coarsest = 0;
+  for (const Body& body : scene.bodies) {
+    finest = std::min(finest, body.spacing_factor);
+    coarsest = std::max(coarsest, body.spacing_factor);
+  }
+  return std::pow(finest / coarsest, dim);
+}
+
+/// Brings the density of particle i within its bounds; `share` accounts for bodies of different spacing.
+template <int Dim>
+void hold_density(Simulation<Dim>& sim, const Material& material, double share, std::size_t i) {
+  Particles<Dim>& p = sim.particles;
+  const double sum = p.column(Field::neighbour_sum)[i], h = p.column(Field::smoothing_length)[i];
+  if (!(sum > 0)) return;
+  const double nodes = sim.support->effective_nodes_per_h(sum), per_spacing = nodes / h;
+  const double by_spacing =
+      p.column(Field::mass)[i] * (Dim == 2 ? per_spacing * per_spacing : per_spacing * per_spacing * per_spacing);
+  const double least = least_density_share * share * by_spacing, most = most_density_share / share * by_spacing;
+  double& density = p.column(Field::density)[i];
+  const double target = sim.scene.numerics.nodes_per_h;
+  if (std::holds_alternative<IdealGas>(material.eos)) {
+    density = std::max(density, least);
+    if (nodes > least_filling * target) density = std::min(density, most);
+    return;
+  }
+  // Cold condensed matter stores energy on either side of its own density: that side is not changed for nothing.
+  const double whole = material.bulk_density();
+  if (density < whole) density = std::max(density, std::min(least, whole));
+  const Body& body = sim.scene.bodies[static_cast<std::size_t>(p.label(Label::body)[i])];
+  const double h0 = target * sim.scene.spacing * body.spacing_factor;
+  if (density > whole && nodes > least_filling * target && h < widest_support * h0)
+    density = std::min(density, std::max(most, whole));
+}
 
 }  // namespace
 
@@ -42,17 +85,18 @@ void pair_rates(Simulation<Dim>& sim) {
 template <int Dim>
 void strain_rates(Simulation<Dim>& sim) {
   Particles<Dim>& p = sim.particles;
-  const bool continuity = p.has(Field::density_rate), variable_shear = p.has(Field::shear_modulus);
+  const bool continuity = p.has(Field::compression_rate), variable_shear = p.has(Field::shear_modulus);
+  const double share = density_share(sim.scene, Dim);
   for (std::size_t m = 0; m < sim.materials.size(); ++m) {
     const Material& material = sim.materials[m];
     const Range range = p.material_ranges()[m];
     parallel_for(range.begin, range.end, [&](std::size_t i) {
       const Mat<Dim> L = p.tensor(Field::velocity_gradient, i);
       const double compression = -L.trace();  // (1/rho) drho/dt
-      const double density = p.column(Field::density)[i];
-      const bool torn = material.solid() && density < least_relative_density * material.bulk_density();
-      if (continuity)
-        p.column(Field::density_rate)[i] = torn ? std::max(0.0, density * compression) : density * compression;
+      if (continuity) {
+        p.column(Field::compression_rate)[i] = compression;
+        hold_density(sim, material, share, i);
+      }
       if (!material.solid()) return;
       double shear = variable_shear ? p.column(Field::shear_modulus)[i] : material.elastic->shear_modulus;
       double distension_rate = 0;
@@ -71,14 +115,25 @@ void strain_rates(Simulation<Dim>& sim) {
 }
 
 template <int Dim>
-void shear_switch(Simulation<Dim>& sim) {
-  // Balsara (1995): |div v| / (|div v| + |curl v| + 1e-4 c/h)
+void viscosity_switches(Simulation<Dim>& sim) {
   Particles<Dim>& p = sim.particles;
+  const bool shear = p.has(Field::shear_switch), shocks = p.has(Field::shock_switch);
+  constexpr double decay = 0.2;  // of sound crossings
   parallel_for(0, p.size(), [&](std::size_t i) {
     const Mat<Dim> L = p.tensor(Field::velocity_gradient, i);
-    const double divergence = std::abs(L.trace());
-    const double floor = 1e-4 * p.column(Field::sound_speed)[i] / p.column(Field::smoothing_length)[i];
-    p.column(Field::shear_switch)[i] = divergence / (divergence + curl<Dim>(L) + floor);
+    const double divergence = L.trace(),
+                 crossing = p.column(Field::sound_speed)[i] / p.column(Field::smoothing_length)[i];
+    double factor = 1;
+    if (shear)  // Balsara (1995): |div v| / (|div v| + |curl v| + 1e-4 c/h)
+      factor = p.column(Field::shear_switch)[i] =
+          std::abs(divergence) / (std::abs(divergence) + curl<Dim>(L) + 1e-4 * crossing);
+    if (shocks) {  // Morris & Monaghan (1997), with the source of Rosswog et al. (2000)
+      double& a = p.column(Field::shock_switch)[i];
+      const double dt = sim.clock.dt, source = std::max(0.0, -divergence);
+      a = (a + dt * (decay * crossing * least_viscosity + source)) / (1 + dt * (decay * crossing + source));
+      factor *= a;
+    }
+    p.column(Field::viscosity_factor)[i] = factor;
   });
 }
 
@@ -88,7 +143,7 @@ template void pair_rates<2>(Simulation<2>&);
 template void pair_rates<3>(Simulation<3>&);
 template void strain_rates<2>(Simulation<2>&);
 template void strain_rates<3>(Simulation<3>&);
-template void shear_switch<2>(Simulation<2>&);
-template void shear_switch<3>(Simulation<3>&);
+template void viscosity_switches<2>(Simulation<2>&);
+template void viscosity_switches<3>(Simulation<3>&);
 
 }  // namespace ejecta

@@ -7,6 +7,7 @@
 #include "particles/smoothing_metric.hpp"
 #include "schemes/kernels.hpp"
 #include "schemes/pair_records.hpp"
+#include "simulation/pieces.hpp"
 #include "simulation/seedlings.hpp"
 #include "simulation/stages.hpp"
 #include "simulation/time_step.hpp"
@@ -98,7 +99,15 @@ void plant(Simulation<Dim>& sim, const std::vector<Seedling<Dim>>& seedlings) {
     p.label(Label::material)[i] = s.material;
     if (p.has(Field::distension))
       p.column(Field::distension)[i] = material.porosity ? material.porosity->initial_distension() : 1.0;
-    if (p.has(Field::shear_switch)) p.column(Field::shear_switch)[i] = 1;
+    if (p.has(Field::bond)) {
+      p.set_vector(Field::start_position, i, s.x);
+      p.column(Field::bond)[i] = scene.numerics.bonds == Switch::on
+                                     ? material.solid() && !material.damage && !material.porosity
+                                     : material.stretches();
+      p.column(Field::stretch)[i] = 1;
+    }
+    if (p.has(Field::viscosity_factor)) p.column(Field::viscosity_factor)[i] = 1;
+    if (p.has(Field::shock_switch)) p.column(Field::shock_switch)[i] = 1;
     if (p.has(Field::stress_factor)) p.column(Field::stress_factor)[i] = 1;
     if (p.has(Field::flaw_count) && material.damage) {
       const double solid_volume = s.density * s.volume / reference_density(material.eos);
@@ -130,16 +139,21 @@ std::unique_ptr<Simulation<Dim>> set_up(const Scene& scene, const std::vector<Ma
   PairPassSettings settings;
   settings.kernel = numerics.kernel;
   settings.precision = numerics.precision;
-  settings.stress = sim->particles.has(Field::deviatoric_stress);
+  settings.bonded = sim->particles.has(Field::bond);
+  settings.gradient_correction = settings.bonded || corrects_gradients(scene, materials);
+  settings.stress = settings.gradient_correction || sim->particles.has(Field::deviatoric_stress);
   settings.velocity_gradient = sim->particles.has(Field::velocity_gradient);
   settings.tensor = sim->particles.has(Field::smoothing_metric);
   settings.coupled = sim->particles.has(Field::coupled_gradient);
-  for (const Material& m : materials) settings.cut_by_cracks.push_back(m.cuts_pairs());
-  settings.gradient_correction = numerics.gradient_correction;
+  for (const Material& m : materials) settings.rules.cut_by_cracks.push_back(m.cuts_pairs());
+  for (const Body& body : scene.bodies) settings.rules.sizes.push_back(scene.spacing * body.spacing_factor);
+  settings.rules.pieces = pieces_of(scene, materials, sim->body_material);
+  settings.rules.boundary = scene.boundary;
+  settings.touches = settings.bonded || anything_touches(scene, settings.rules.pieces);
+  settings.friction = scene.contact.friction;
   settings.viscosity_alpha = numerics.viscosity_alpha;
   settings.viscosity_beta = numerics.viscosity_beta;
   settings.length_unit = power_of_two_below(scene.spacing);
-  settings.boundary = scene.boundary;
   sim->pass = make_pair_pass<Dim>(settings);
   sim->support = std::make_unique<SupportSize>(numerics.kernel, Dim, numerics.nodes_per_h);
 

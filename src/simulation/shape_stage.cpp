@@ -143,6 +143,7 @@ Round apply_votes(Simulation<Dim>& sim, bool sum_neighbours) {
       }
       members.for_each([&](int k, std::size_t i) {
         ShapeActions actions;
+        if (p.has(Field::bond) && p.column(Field::bond)[i] > 0) return;
         const bool keep = mean.empty(k) || scratch.neighbours[i] < limits.fewest_neighbours;
         const Mat<Dim> before = p.symmetric(Field::smoothing_metric, i);
         p.set_symmetric(Field::smoothing_metric, i, reshaped<Dim>(before, mean.shrunk(k), keep, limits, actions));

@@ -32,10 +32,11 @@ Bounds bounds_on_h(const Simulation<Dim>& sim, const Material& material, std::si
 template <int Dim>
 void smoothing_lengths(Simulation<Dim>& sim) {
   Particles<Dim>& p = sim.particles;
-  const bool tensor = p.has(Field::smoothing_metric);
+  const bool tensor = p.has(Field::smoothing_metric), bonds = p.has(Field::bond);
   for (std::size_t m = 0; m < sim.materials.size(); ++m) {
     const Range range = p.material_ranges()[m];
     parallel_for(range.begin, range.end, [&](std::size_t i) {
+      if (bonds && p.column(Field::bond)[i] > 0) return;  // as it was at the start
       const Bounds bounds = bounds_on_h(sim, sim.materials[m], i);
       double& h = p.column(Field::smoothing_length)[i];
       const double before = h;
@@ -51,9 +52,11 @@ template <int Dim>
 void carry_smoothing(Simulation<Dim>& sim) {
   if (sim.clock.step == 0) return;
   Particles<Dim>& p = sim.particles;
+  const bool bonds = p.has(Field::bond);
   for (std::size_t m = 0; m < sim.materials.size(); ++m) {
     const Range range = p.material_ranges()[m];
     parallel_for(range.begin, range.end, [&](std::size_t i) {
+      if (bonds && p.column(Field::bond)[i] > 0) return;
       const Mat<Dim> carried =
           limited_metric<Dim>(carried_metric<Dim>(p.symmetric(Field::smoothing_metric, i),
                                                   p.tensor(Field::velocity_gradient, i), sim.clock.dt),

@@ -4,6 +4,20 @@
 
 namespace ejecta {
 
+namespace {
+
+/// What a switch means; automatic: yes unless all is ideal gas.
+bool holds(Switch choice, const std::vector<Material>& materials) {
+  const auto gas = [](const Material& m) { return std::holds_alternative<IdealGas>(m.eos); };
+  return choice == Switch::on || (choice == Switch::automatic && !std::all_of(materials.begin(), materials.end(), gas));
+}
+
+}  // namespace
+
+bool corrects_gradients(const Scene& scene, const std::vector<Material>& materials) {
+  return holds(scene.numerics.gradient_correction, materials);
+}
+
 template <int Dim>
 std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Material>& materials) {
   using enum Field;
@@ -21,9 +35,12 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
   const bool remembers = any([](const Material& m) { return m.damage && m.damage->remembers_strain(); });
   const bool driven = std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) { return b.driven; });
   const bool continuity = scene.numerics.density == DensityMethod::continuity;
-  const bool balsara = scene.numerics.balsara;
+  const bool balsara = holds(scene.numerics.balsara, materials);
+  const bool decays = holds(scene.numerics.shock_switch, materials);
+  const bool bonded = scene.numerics.bonds == Switch::on || (scene.numerics.bonds == Switch::automatic &&
+                                                             any([](const Material& m) { return m.stretches(); }));
   const bool tensor = scene.numerics.scheme == SchemeKind::asph;
-  const bool gradient = solid || continuity || balsara || tensor;
+  const bool gradient = solid || continuity || balsara || decays || tensor || corrects_gradients(scene, materials);
 
   std::vector<Stage<Dim>> stages;
   auto add = [&](std::string name, std::vector<Field> reads, std::vector<Field> writes, void (*run)(Simulation<Dim>&)) {
@@ -55,6 +72,7 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
         extended(extended({deviatoric_stress, pressure, specific_energy}, breaks, {Field::damage}), variable_shear,
                  {shear_modulus}),
         {deviatoric_stress, plastic_strain}, strength<Dim>);
+  if (bonded) add("bonds", extended({stretch, density}, yields, {plastic_strain}), {bond}, bonds<Dim>);
   if (breaks)
     add("damage",
         extended(extended(extended({pressure, deviatoric_stress}, grady_kipp, {flaw_strain, flaw_exponent, flaw_count}),
@@ -65,20 +83,23 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
                  remembers, {strain_history}),
         ejecta::damage<Dim>);
   add("pair rates",
-      extended(extended({position, velocity, smoothing_length, mass, density, pressure, sound_speed}, solid,
-                        {deviatoric_stress}),
-               balsara, {Field::shear_switch}),
-      extended(extended({acceleration, heating, neighbour_sum, approach_speed}, gradient, {velocity_gradient}), coupled,
-               {coupled_gradient}),
+      extended(extended(extended({position, velocity, smoothing_length, mass, density, pressure, sound_speed}, solid,
+                                 {deviatoric_stress}),
+                        balsara || decays, {viscosity_factor}),
+               bonded, {start_position, bond}),
+      extended(extended(extended({acceleration, heating, neighbour_sum, approach_speed}, gradient, {velocity_gradient}),
+                        coupled, {coupled_gradient}),
+               bonded, {stretch}),
       pair_rates<Dim>);
   if (driven) add("driven bodies", {acceleration, velocity, mass}, {acceleration}, driven_bodies<Dim>);
   if (continuity || solid)
     add("strain rates",
         extended(extended({velocity_gradient, density}, solid, {deviatoric_stress}), variable_shear, {shear_modulus}),
-        extended(extended({}, continuity, {density_rate}), solid, {stress_rate}), strain_rates<Dim>);
-  if (balsara)
-    add("shear switch", {velocity_gradient, sound_speed, smoothing_length}, {Field::shear_switch},
-        ejecta::shear_switch<Dim>);
+        extended(extended({}, continuity, {compression_rate}), solid, {stress_rate}), strain_rates<Dim>);
+  if (balsara || decays)
+    add("viscosity switches", {velocity_gradient, sound_speed, smoothing_length},
+        extended(extended({viscosity_factor}, balsara, {Field::shear_switch}), decays, {Field::shock_switch}),
+        viscosity_switches<Dim>);
   if (continuity && scene.numerics.smoothing_growth > 1)
     add("smoothing lengths", {neighbour_sum, smoothing_length, mass}, {smoothing_length}, smoothing_lengths<Dim>);
   return stages;

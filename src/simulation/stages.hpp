@@ -7,6 +7,9 @@ namespace ejecta {
 template <int Dim>
 std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Material>& materials);
 
+/// Whether gradients are corrected: by default wherever there is more than ideal gas.
+bool corrects_gradients(const Scene& scene, const std::vector<Material>& materials);
+
 /// Every field a stage list names, in catalogue order.
 template <int Dim>
 std::vector<Field> fields_of(const std::vector<Stage<Dim>>& stages);
@@ -18,6 +21,10 @@ void equation_of_state(Simulation<Dim>& sim);
 /// Brings the stress deviator back to the yield surface.
 template <int Dim>
 void strength(Simulation<Dim>& sim);
+
+/// Bonds end where matter has yielded, and where it is stretched or compressed out of all proportion.
+template <int Dim>
+void bonds(Simulation<Dim>& sim);
 
 // --- damage_stage.cpp ------------------------------------------------------------------------------------------------
 /// Growth of cracks from the local strain, total damage, and what it leaves of tension. Tensor damage and the strain it
@@ -49,9 +56,9 @@ void pair_rates(Simulation<Dim>& sim);
 /// Rates of density and stress from the velocity gradient.
 template <int Dim>
 void strain_rates(Simulation<Dim>& sim);
-/// Balsara's switch for the viscosity of the next step.
+/// Factors of the viscosity of the next step: where matter shears, and where no shock has come by.
 template <int Dim>
-void shear_switch(Simulation<Dim>& sim);
+void viscosity_switches(Simulation<Dim>& sim);
 
 // --- shape_stage.cpp -------------------------------------------------------------------------------------------------
 /// Shapes of H by the votes of the neighbours, every numerics.shape_interval steps. At the start votes and sizes are

@@ -25,7 +25,7 @@ TimeStepVote vote_time_step(const Simulation<Dim>& sim) {
   constexpr double never = std::numeric_limits<double>::infinity();
   const auto h = p.column(Field::smoothing_length), sound = p.column(Field::sound_speed),
              approach = p.column(Field::approach_speed);
-  const bool compresses = p.has(Field::density_rate);
+  const bool compresses = p.has(Field::compression_rate);
   // What a signal crosses first: the shortest axis of a smoothing ellipsoid.
   const bool tensor = p.has(Field::smoothing_metric);
   auto crossing = [&](std::size_t i) {
@@ -41,7 +41,7 @@ TimeStepVote vote_time_step(const Simulation<Dim>& sim) {
     return std::sqrt(length / p.vector(Field::acceleration, i).norm());
   };
   auto compression = [&](std::size_t i) {
-    return compresses ? p.column(Field::density)[i] / std::abs(p.column(Field::density_rate)[i]) : never;
+    return compresses ? 1 / std::abs(p.column(Field::compression_rate)[i]) : never;
   };
   // Divided by the Courant number that multiplies every vote: a crack's share of the particle has nothing to do with
   // it.

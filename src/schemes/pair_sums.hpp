@@ -1,0 +1,271 @@
+#pragma once
+/// Parts of the pair loop: the members of a cluster in their lanes, how a partner looks from there, what touching
+/// pieces do to each other, and sums that make a tensor.
+#include "base/simd.hpp"
+#include "base/types.hpp"
+#include "schemes/pair_records.hpp"
+
+namespace ejecta::pair_detail {
+
+template <int Dim, class V>
+V dot(const V (&a)[Dim], const V (&b)[Dim]) {
+  V sum = a[0] * b[0];
+  for (int k = 1; k < Dim; ++k) sum += a[k] * b[k];
+  return sum;
+}
+
+/// (T . g)_a with T stored row by row, or one number for an isotropic stress.
+template <bool Stress, int Dim, class Tensor, class V>
+void contract(const Tensor& t, const V (&g)[Dim], V (&f)[Dim]) {
+  for (int a = 0; a < Dim; ++a) {
+    if constexpr (Stress) {
+      f[a] = t[a * Dim] * g[0];
+      for (int b = 1; b < Dim; ++b) f[a] += t[a * Dim + b] * g[b];
+    } else {
+      f[a] = t[0] * g[a];
+    }
+  }
+}
+
+/// T : L of lane k for the same storage.
+template <bool Stress, int Dim, class V, int N>
+double double_contract(const V (&t)[N], int k, const Mat<Dim>& L) {
+  if constexpr (!Stress) return static_cast<double>(t[0][k]) * L.trace();
+  double sum = 0;
+  for (int a = 0; a < Dim; ++a)
+    for (int b = 0; b < Dim; ++b) sum += static_cast<double>(t[Stress ? a * Dim + b : 0][k]) * L(a, b);
+  return sum;
+}
+
+/// x . D x for a symmetric D (order: base/types.hpp).
+template <int Dim, class Tensor, class V>
+V along(const Tensor& d, const V (&x)[Dim]) {
+  if constexpr (Dim == 2) {
+    return x[0] * (d[0] * x[0] + d[2] * x[1]) + x[1] * (d[2] * x[0] + d[1] * x[1]);
+  } else {
+    return x[0] * (d[0] * x[0] + d[3] * x[1] + d[4] * x[2]) + x[1] * (d[3] * x[0] + d[1] * x[1] + d[5] * x[2]) +
+           x[2] * (d[4] * x[0] + d[5] * x[1] + d[2] * x[2]);
+  }
+}
+
+/// Sum over partners of a b^T.
+template <class V, int Dim>
+struct TensorSum {
+  V sum[Dim * Dim] = {};
+  void add(const V (&a)[Dim], const V (&b)[Dim]) {
+    for (int r = 0; r < Dim; ++r)
+      for (int c = 0; c < Dim; ++c) sum[r * Dim + c] += a[r] * b[c];
+  }
+  Mat<Dim> of_lane(int lane) const {
+    Mat<Dim> m;
+    for (int r = 0; r < Dim; ++r)
+      for (int c = 0; c < Dim; ++c) m(r, c) = static_cast<double>(sum[r * Dim + c][lane]);
+    return m;
+  }
+};
+
+template <int Dim>
+void store(Particles<Dim>& particles, Field field, std::size_t i, const Mat<Dim>& m) {
+  for (int a = 0; a < Dim; ++a)
+    for (int b = 0; b < Dim; ++b) particles.column(field, a * Dim + b)[i] = m(a, b);
+}
+
+/// What a bonded pass adds to a partner.
+template <class V, int Dim, bool Bonded>
+struct Bond {};
+template <class V, int Dim>
+struct Bond<V, Dim, true> {
+  V between[Dim], own, stretch2;  ///< separation that the kernel sees; 1 for neighbours; of a bond, else 0
+};
+
+/// A candidate as the lanes of a cluster see it.
+template <class T, class V, int Dim, RecordKind Kind, class Pair>
+struct Partner : Bond<V, Dim, Kind.bonded> {
+  V dx[Dim], r2;  ///< x_j - x_i
+  Pair pair;
+  const T* record;
+  bool foreign;  ///< in some lane of another piece; only with stress
+
+  void kernel_gradient(V (&g)[Dim]) const {
+    if constexpr (Kind.bonded)
+      pair.gradient(this->between, g);
+    else
+      pair.gradient(dx, g);
+  }
+};
+
+/// What passes between pieces that touch. All lanes; the caller keeps to those of other pieces.
+template <class T, class V, class R, int Dim>
+struct Touch {
+  V touching, impedance, normal[Dim], velocity[Dim], press[R::stresses];
+  T friction;
+
+  /// Whether lane k passes stress on to others.
+  bool pressed(int k) const {
+    bool any = false;
+    for (const V& value : press) any |= value[k] != 0;
+    return any;
+  }
+  /// How far a pair of different pieces touches; 0 within a piece.
+  template <class Partner>
+  V weight(const Partner& p, V own) const {
+    return (T(1) - own) * simd::max(touching, V{} + p.record[R::touching]);
+  }
+  /// What i feels of j and j of i, by the impedances rho c of both, 2 in all: as where two waves meet, the softer one
+  /// decides what stress there is at the contact. A solid hardly notices the gas beside it, which feels it as a wall.
+  template <class Partner>
+  void shares(const Partner& p, V& own_share, V& other_share) const {
+    const V other = V{} + p.record[R::density] * p.record[R::sound_speed];
+    other_share = T(2) * impedance / (impedance + other);
+    own_share = T(2) * other / (impedance + other);
+  }
+  /// Factor of the viscosity: the mean sound speed in it is at most twice the lower one.
+  template <class Partner>
+  V softness(const Partner& p, V sound_speed) const {
+    const V other = V{} + p.record[R::sound_speed];
+    return simd::min(V(T(4) * simd::min(sound_speed, other) / (sound_speed + other)), V{} + T(1));
+  }
+  /// v.x for neighbours; between pieces only what closes the gap, so that sliding does not brake.
+  template <class Partner>
+  V closing(const Partner& p, const V (&dv)[Dim], V along, V own) const {
+    V n[Dim];
+    const V n2 = mean_normal(p, n), gap = dot(dv, n) * dot(p.dx, n) / (n2 + T(1e-20));
+    return own > T(0) ? along : V(n2 > T(0.01) ? gap : along);
+  }
+  /// Adds friction to the force per volume; returns half of what it heats. The velocity of an
+  /// image behind a wall is mirrored; the wall itself rests.
+  template <class Partner>
+  V rub(const Partner& p, const V (&dv)[Dim], V own, V (&force)[Dim], V reach) const {
+    const bool rests = p.record[R::piece] == T(wall);
+    V n[Dim], slide[Dim];
+    const V n2 = mean_normal(p, n) + T(1e-20);
+    for (int a = 0; a < Dim; ++a) slide[a] = rests ? V(-p.record[R::v + a] - velocity[a]) : dv[a];
+    const V out = dot(slide, n) / n2, push = simd::max(V(-dot(force, n)), V{}) * (T(1) - own);
+    for (int a = 0; a < Dim; ++a) slide[a] -= out * n[a];
+    const V speed = simd::square_root(V(dot(slide, slide) + T(1e-20)));
+    const V softer = simd::min(impedance, V{} + p.record[R::density] * p.record[R::sound_speed]);
+    const V drag = simd::min(V(friction * push / simd::square_root(n2)), V(softer * speed * reach)) / speed;
+    V work{};
+    for (int a = 0; a < Dim; ++a) {
+      force[a] += drag * slide[a];
+      work += drag * slide[a] * slide[a];
+    }
+    return T(0.5) * work;
+  }
+
+ private:
+  /// Normal of the contact, from i to j: the mean of what both see.
+  template <class Partner>
+  V mean_normal(const Partner& p, V (&n)[Dim]) const {
+    for (int a = 0; a < Dim; ++a) n[a] = normal[a] - p.record[R::normal + a];
+    return dot(n, n);
+  }
+};
+
+/// The W members of a cluster; lanes beyond its end repeat the last member.
+template <class T, class V, class R, int Dim, RecordKind Kind>
+struct Members {
+  const Cluster& cluster;
+  const T* records;
+  V x[Dim], x_low[Dim], piece, place[Dim], place_low[Dim], bond;
+
+  Members(const Cluster& c, const T* all) : cluster(c), records(all) {
+    const auto load = loader();
+    for (int a = 0; a < Dim; ++a) {
+      x[a] = load(R::x + a);
+      if constexpr (R::split) x_low[a] = load(R::x_low + a);
+      if constexpr (Kind.bonded) place[a] = load(R::place + a);
+      if constexpr (Kind.bonded && R::split) place_low[a] = load(R::place_low + a);
+    }
+    if constexpr (Kind.stress) piece = load(R::piece);
+    if constexpr (Kind.bonded) bond = load(R::bond);
+  }
+
+  /// load(k): value k of the record of every member.
+  auto loader() const {
+    return [this](int k) {
+      V v{};
+      for (int lane = 0; lane < simd::lanes<T>; ++lane) {
+        const std::size_t i = std::min<std::size_t>(cluster.begin + static_cast<std::size_t>(lane), cluster.end - 1);
+        v[lane] = records[i * R::size + static_cast<std::size_t>(k)];
+      }
+      return v;
+    };
+  }
+
+  /// Looks at the partner of p.record: `between` is the separation at which the kernel is taken, and its square.
+  template <class Partner>
+  void meet(Partner& p, V (&between)[Dim], V& distance2) const {
+    const T* j = p.record;
+    separation(x, x_low, j, R::x, R::x_low, p.dx);
+    p.r2 = dot(p.dx, p.dx);
+    if constexpr (Kind.stress) p.foreign = any_differs(piece, j[R::piece]);
+    if constexpr (Kind.bonded) {
+      separation(place, place_low, j, R::place, R::place_low, between);
+      const V same = piece == V{} + j[R::piece] ? V{} + T(1) : V{}, R2 = dot(between, between);
+      const V limit = bond + j[R::bond], both = same * bond * j[R::bond];
+      const V apart = R2 > limit * limit ? both : V{};  // of one piece, and strangers
+      p.own = apart > T(0) ? V{} : same;
+      p.foreign = simd::any_less(p.own, V{} + T(1));
+      const V holds = p.own * both;
+      for (int a = 0; a < Dim; ++a) p.between[a] = between[a] = holds > T(0) ? between[a] : p.dx[a];
+      distance2 = holds > T(0) ? R2 : p.r2;
+      p.stretch2 = holds > T(0) ? V(p.r2 / (R2 + T(1e-20))) : V{};
+    } else {
+      for (int a = 0; a < Dim; ++a) between[a] = p.dx[a];
+      distance2 = p.r2;
+    }
+  }
+  /// Whether any of the candidates may be foreign.
+  bool mixed(std::span<const std::uint32_t> candidates) const {
+    if constexpr (Kind.bonded) return true;
+    if constexpr (!Kind.stress) return false;
+    const T first = records[cluster.begin * R::size + R::piece];
+    for (std::size_t i = cluster.begin; i < cluster.end; ++i)
+      if (records[i * R::size + R::piece] != first) return true;
+    for (const std::uint32_t j : candidates)
+      if (records[static_cast<std::size_t>(j) * R::size + R::piece] != first) return true;
+    return false;
+  }
+  /// 1 in the lanes of the partner's piece, 0 in others.
+  template <class Partner>
+  V own(const Partner& p) const {
+    if constexpr (Kind.bonded)
+      return p.own;
+    else
+      return piece == V{} + p.record[R::piece] ? V{} + T(1) : V{};
+  }
+  /// Square of the stretch of bonds that are in use.
+  template <class Partner>
+  V stretch2(const Partner& p) const {
+    return p.pair.reach() > T(0) ? p.stretch2 : V{};
+  }
+  Touch<T, V, R, Dim> touch(double friction) const {
+    const auto load = loader();
+    Touch<T, V, R, Dim> t;
+    t.touching = load(R::touching);
+    t.impedance = load(R::density) * load(R::sound_speed);
+    for (int a = 0; a < Dim; ++a) {
+      t.normal[a] = load(R::normal + a);
+      t.velocity[a] = load(R::v + a);
+    }
+    for (int k = 0; k < R::stresses; ++k) t.press[k] = load(R::press + k);
+    t.friction = static_cast<T>(friction);
+    return t;
+  }
+
+ private:
+  static bool any_differs(V a, T b) {
+    const V difference = a - b;
+    return simd::any_less(V{}, V(difference * difference));
+  }
+  /// Antisymmetric bit for bit also where positions are split in two.
+  static void separation(const V (&own)[Dim], const V (&own_low)[Dim], const T* j, int place, int low, V (&d)[Dim]) {
+    for (int a = 0; a < Dim; ++a) {
+      d[a] = j[place + a] - own[a];
+      if constexpr (R::split) d[a] += j[low + a] - own_low[a];
+    }
+  }
+};
+
+}  // namespace ejecta::pair_detail
