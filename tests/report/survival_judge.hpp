@@ -27,7 +27,7 @@ struct Verdict {
   std::size_t negative = 0;                 ///< particles that ever had a negative energy
   double fastest = 0;                       ///< at any time, in impact speeds
   double thinnest = 1, densest = 1;         ///< density over mass/spacing^Dim where neighbours are on all sides
-  double densest_spray = 1;                 ///< the same of fluids whose supports have grown beyond what a solid's may
+  double densest_spray = 1;                 ///< the same where supports have grown, but in a gas: torn matter
 };
 
 inline constexpr std::int64_t most_steps = 20000;
@@ -36,9 +36,10 @@ inline constexpr double largest_energy_error = 1e-9;
 inline constexpr double least_specific_energy = -1e-3;             // cold starts may cool a little below zero
 inline constexpr double largest_speed = 3, largest_speed_gas = 5;  // a gas that was hit flies into the void at 3.6 v
 inline constexpr double largest_ratio = 3;
-/// Drops of a liquid that has torn are dense and far apart, and their supports grow until they reach the next ones:
-/// they are not too dense. A solid's h may grow to half as much again (numerics.smoothing_growth).
-inline constexpr double largest_growth = 1.5 * 1.05;
+/// Drops of torn matter are dense and far apart, and their supports grow until they reach the next ones: they are not
+/// too dense. Below this growth of h a particle that has four fifths of its neighbours has them at 1.35 spacings or
+/// less.
+inline constexpr double largest_growth = 1.2;
 
 /// Density of every particle over m n, n the number density of its nearest neighbours, for those that have neighbours
 /// of their own body on all sides; 1 for the others.
