@@ -83,6 +83,7 @@ class Sliding(Case):
     quick = (20,)
     full = (20, 40)
     boost, boost_speed = "x", 100.0
+    mixed_margin = "without friction the errors are round-off"
 
     def __init__(self, friction):
         self.friction = friction
