@@ -16,8 +16,8 @@ using namespace ejecta;
 using namespace ejecta::survival;
 
 template <int Dim>
-Verdict attempt(const Run& run, const std::vector<Material>& materials) {
-  const Scene scene = parse_scene(scene_of(run, materials), "survival.toml");
+Verdict attempt(const Run& run, const std::vector<Material>& materials, const std::vector<std::string>& settings) {
+  const Scene scene = parse_scene(scene_of(run, materials), "survival.toml", settings);
   const bool gas = is_gas(material_named(materials, run.ball)) || is_gas(material_named(materials, run.target));
   try {
     const auto sim = set_up<Dim>(scene, read_materials(scene, EJECTA_SOURCE_DIR "/inputs/materials").list);
@@ -35,8 +35,9 @@ std::string row(const Run& run, Verdict v) {
                      v.densest_spray, v.message);
 }
 
-/// Returns how many failed.
-std::size_t survive(const std::vector<Run>& runs, const std::vector<Material>& materials) {
+/// Returns how many failed. `settings` as for --set.
+std::size_t survive(const std::vector<Run>& runs, const std::vector<Material>& materials,
+                    const std::vector<std::string>& settings) {
   std::puts(
       "variant,ball,target,speed [km/s],outcome,particles,steps,short steps,time reached [1],energy error [1],least "
       "energy [v^2/2],negative energies,fastest [v],thinnest [m/spacing^d],densest [m/spacing^d],densest spray "
@@ -47,7 +48,8 @@ std::size_t survive(const std::vector<Run>& runs, const std::vector<Material>& m
     set_threads(1);
     for (std::size_t k = next++; k < runs.size(); k = next++) {
       const Run& run = runs[k];
-      const Verdict verdict = run.dimension() == 2 ? attempt<2>(run, materials) : attempt<3>(run, materials);
+      const Verdict verdict =
+          run.dimension() == 2 ? attempt<2>(run, materials, settings) : attempt<3>(run, materials, settings);
       const std::lock_guard lock(output);
       std::fputs(row(run, verdict).c_str(), stdout);
       std::fflush(stdout);
@@ -66,29 +68,29 @@ std::size_t survive(const std::vector<Run>& runs, const std::vector<Material>& m
 }  // namespace
 
 int main(int argc, char** argv) try {
-  const std::string what = argc > 1 ? argv[1] : "";
+  std::vector<std::string> words(argv + 1, argv + argc), settings;
+  for (; words.size() > 2 && words[0] == "--set"; words.erase(words.begin(), words.begin() + 2))
+    settings.push_back(words[1]);
   const std::vector<Material> materials = shipped_materials();
-  if (argc == 3 && what == "--scene") {
-    std::fputs(scene_of(parse_run(argv[2], materials), materials).c_str(), stdout);
+  const std::string what = words.empty() ? "" : words[0];
+  if (what == "--scene" && words.size() == 2) {
+    std::fputs(scene_of(parse_run(words[1], materials), materials).c_str(), stdout);
     return 0;
   }
   std::vector<Run> runs;
-  if (argc == 2 && what == "--quick")
-    runs = spread(materials);
-  else if (argc == 2 && what == "--2d")
-    runs = every_pair(materials);
-  else if (argc == 2 && what == "--variants")
-    runs = every_variant(materials);
-  else if (argc > 2 && what == "--run")
-    for (int k = 2; k < argc; ++k) runs.push_back(parse_run(argv[k], materials));
-  else {
+  if (what == "--quick" && words.size() == 1) runs = spread(materials);
+  if (what == "--2d" && words.size() == 1) runs = every_pair(materials);
+  if (what == "--variants" && words.size() == 1) runs = every_variant(materials);
+  if (what == "--run")
+    for (std::size_t k = 1; k < words.size(); ++k) runs.push_back(parse_run(words[k], materials));
+  if (runs.empty()) {
     std::fputs(
-        "usage: survival --quick | --2d | --variants | --run \"iron into ice 10 3d\" ... | --scene \"iron into ice 10 "
-        "3d\"\n",
+        "usage: survival [--set key=value]... --quick | --2d | --variants | --run \"iron into ice 10 3d\"...\n"
+        "       survival --scene \"iron into ice 10 3d\"\n",
         stderr);
     return 2;
   }
-  return survive(runs, materials) == 0 ? 0 : 1;
+  return survive(runs, materials, settings) == 0 ? 0 : 1;
 } catch (const InputError& error) {
   std::fprintf(stderr, "survival: %s\n", error.what());
   return 2;
