@@ -17,13 +17,15 @@ using namespace ejecta::survival;
 
 template <int Dim>
 Verdict attempt(const Run& run, const std::vector<Material>& materials, const std::vector<std::string>& settings) {
-  const Scene scene = parse_scene(scene_of(run, materials), "survival.toml", settings);
   const bool gas = is_gas(material_named(materials, run.ball)) || is_gas(material_named(materials, run.target));
   try {
+    const Scene scene = parse_scene(scene_of(run, materials), "survival.toml", settings);
     const auto sim = set_up<Dim>(scene, read_materials(scene, EJECTA_SOURCE_DIR "/inputs/materials").list);
     return judge(*sim, 1e3 * run.speed, gas);
   } catch (const SimulationError& error) {
     return {.kind = "first evaluation", .message = error.what()};
+  } catch (const InputError& error) {
+    return {.kind = "refused", .message = error.what()};
   }
 }
 
