@@ -47,7 +47,7 @@ def per_thousand(rows):
 
 def by(rows, key):
     """Runs, failures, failures per thousand and what they were, for each value of a column."""
-    values = sorted({row[key] for row in rows}, key=lambda value: (len(value), value) if value.isdigit() else (0, value))
+    values = sorted({row[key] for row in rows}, key=lambda value: (len(value) * value.isdigit(), value))
     lines = []
     for value in values:
         group = [row for row in rows if row[key] == value]
@@ -87,10 +87,10 @@ def page(rows, conditions):
     lost = failed(rows)
     parts = [f"# Survival\n\n{len(rows)} impacts, {len(lost)} not survived: **{per_thousand(rows)} per thousand**. "
              f"Commit {conditions['commit']}, {conditions['date']}, {conditions['machine']}.\n\n"
-             "A ball hits a target that is 18 spacings across (2D; 10 in 3D). A run is survived if the core does not give "
-             "up, total energy is kept to 1e-9 of the impact's, no specific energy falls below -1e-3 v^2/2, nothing flies "
-             "faster than 3 v (5 v with a gas), and density stays within a factor of 3 of mass over spacing^d wherever a "
-             "particle has neighbours on all sides.\n"]
+             "A ball hits a target that is 18 spacings across (2D; 10 in 3D). A run is survived if the core does not "
+             "give up, total energy is kept to 1e-9 of the impact's, no specific energy falls below -1e-3 v^2/2, "
+             "nothing flies faster than 3 v (5 v with a gas), and density stays within a factor of 3 of mass over "
+             "spacing^d wherever a particle has neighbours on all sides.\n"]
     parts += [by(rows, "speed [km/s]"), by(rows, "variant")]
     flat = [row for row in rows if row["variant"] == "2d"]
     if failed(flat) and len(flat) > 1000:
@@ -99,8 +99,8 @@ def page(rows, conditions):
     if survived:
         parts.append(extremes(survived))
     if lost:
-        parts.append(f"`build/tests/report/survival --scene \"{name(lost[0])}\" > x.toml; build/ejecta run x.toml` shows "
-                     f"the first of these ({min(len(lost), FAILURES_NAMED)} of {len(lost)}):\n\n" +
+        parts.append(f"`build/tests/report/survival --scene \"{name(lost[0])}\" > x.toml; build/ejecta run x.toml` "
+                     f"shows the first of these ({min(len(lost), FAILURES_NAMED)} of {len(lost)}):\n\n" +
                      table(["run", "outcome", "at", "what the core said"],
                            [[name(row), row["outcome"], row["time reached [1]"], row["message"][:160].replace("|", "/")]
                             for row in lost[:FAILURES_NAMED]]))

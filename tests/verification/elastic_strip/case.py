@@ -13,10 +13,10 @@ FIRST, LAST = 0.03, 0.10  # strain; before that the strip still swings sideways 
 class ElasticStrip(Case):
     """Resolution: particles across.
 
-    The stress is the mean of the Cauchy stress along the strip, by volume, in its particles; the strain is the true one,
-    ln(1 + 5 m/s t/9.5 mm). In these the law of the code (stress rate linear in the strain rate, P linear in the density)
-    stays linear within 0.7 % up to a tenth: homogeneous stretch of a free strip, integrated in check_exact. Over the engineering
-    strain the same mean stress would be 5.3 % lower at a tenth, and as force over the first section 9 %.
+    The stress is the mean of the Cauchy stress along the strip, by volume, in its particles; the strain is the true
+    one, ln(1 + 5 m/s t/9.5 mm). In these the law of the code (stress rate linear in the strain rate, P linear in the
+    density) stays linear within 0.7 % up to a tenth: homogeneous stretch of a free strip, solved in check_exact. Over
+    the engineering strain the same mean stress would be 5.3 % lower at a tenth, and as force over the first section 9 %.
     """
     name = "elastic_strip"
     title = "elastic strip between grips, strain up to a tenth"

@@ -43,7 +43,8 @@ class Rotation(Case):
 
     def settings(self, resolution):
         strength = {} if self.strength else {"materials.jelly.strength.model": "none"}
-        return {"resolution.spacing": (LENGTH / resolution, "m"), "numerics.scheme": self.scheme, **self.body, **strength}
+        return {"resolution.spacing": (LENGTH / resolution, "m"), "numerics.scheme": self.scheme, **self.body,
+                **strength}
 
     def errors(self, run, resolution):
         """Over the second half of the run, by the snapshots."""
