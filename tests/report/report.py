@@ -25,6 +25,7 @@ from content import Report  # noqa: E402
 from page import markdown, web  # noqa: E402
 from results import Results  # noqa: E402
 from studies import AXES, STUDIES, TOLERANCE  # noqa: E402
+from survival import SETS, survival  # noqa: E402
 
 PARTS = ["verification", *(axis.name for axis in AXES), "solver", "tolerance"]
 
@@ -75,12 +76,18 @@ def main():
                         help="ladder of the verification cases (default: quick; full takes much longer)")
     parser.add_argument("--only", metavar="WORDS", help=f"cases and parts, such as sod,precision. "
                                                          f"Parts: {', '.join(PARTS)}")
+    parser.add_argument("--survival", nargs="?", const="2d", choices=tuple(SETS),
+                        help="in place of all this: impacts of every material into every other. quick: forty of them; "
+                             "2d (default): discs, minutes; all: spheres, asph, tensor damage, mixed precision too")
+    parser.add_argument("--survival-program", help=argparse.SUPPRESS)
     parser.add_argument("--draw", action="store_true", help="run nothing; draw again what is in the folder")
     options = parser.parse_args()
     options.words = [f"--verify {options.verify}", *(["--quick"] if options.quick else []),
                      *([f"--only {options.only}"] if options.only else [])]
     parts, cases = chosen(options.only)
     options.out.mkdir(parents=True, exist_ok=True)
+    if options.survival:
+        return survival(options, conditions(options))
     if not options.draw:
         run(options, parts, cases)
     results = Results.read(options.out)

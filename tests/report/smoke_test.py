@@ -10,6 +10,8 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
+from survival import name
+
 REPORT = Path(__file__).resolve().with_name("report.py")
 TABLES = ["errors", "precision_table", "solver", "solver_table", "verification_table"]
 FIGURES = ["precision", "precision_particle_steps", "solver", "convergence_1", "profiles_sod"]
@@ -43,10 +45,25 @@ def check_figure(file, commit):
     assert f"commit {commit}," in image.text["Description"], f"{file.name} does not name the commit"
 
 
+def check_survival(options, out):
+    """The page counts the rows of the table, and a run that is named can be written as a scene."""
+    subprocess.run([sys.executable, "-B", str(REPORT), "--program", options.program, "--survival-program",
+                    options.survival_program, "--out", str(out), "--survival", "quick"], check=True)
+    rows = table(out / "survival.csv")
+    failed = sum(row["outcome"] != "survived" for row in rows)
+    assert len(rows) == 40, f"{len(rows)} runs"
+    assert f"{len(rows)} impacts, {failed} not survived" in (out / "survival.md").read_text()
+    scene = subprocess.run([options.survival_program, "--scene", name(rows[0])], capture_output=True, text=True,
+                           check=True).stdout
+    (out / "scene.toml").write_text(scene)
+    subprocess.run([options.program, "check", str(out / "scene.toml")], check=True, capture_output=True)
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--program", required=True)
     parser.add_argument("--solver-work", required=True)
+    parser.add_argument("--survival-program", required=True)
     options = parser.parse_args()
     info = subprocess.run([options.program, "info"], capture_output=True, text=True, check=True).stdout
     commit = re.search(r"commit ([^)]+)", info)[1]
@@ -64,6 +81,7 @@ def main():
             text = (out / page).read_text()
             assert all(f"{name}.png" in text for name in FIGURES), f"{page} lacks a figure"
             assert commit in text and "at equal error" in text, f"{page} lacks the commit or what to conclude"
+        check_survival(options, out)
     print("passed")
 
 

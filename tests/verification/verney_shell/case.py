@@ -65,7 +65,7 @@ class VerneyTube(VerneySphere):
     quick = (5, 10)
     full = (5, 10, 20, 40)
     bounds = (
-        Bound("inner radius", "relative", {5: 0.115, 10: 0.07, 20: 0.04, 40: 0.026}, 0.6),
+        Bound("inner radius", "relative", {5: 0.03, 10: 0.01, 20: 0.005, 40: 0.003}, 1.5, why="0.5 % is asked at 20"),
         Bound("inner radius on the way", "L1", {5: 0.026, 10: 0.017, 20: 0.0095, 40: 0.006}, 0.55),
         Bound("kinetic energy left", "relative", 2e-3, why="the tube is at rest"),
     )
