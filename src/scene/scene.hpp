@@ -24,7 +24,7 @@ enum class Precision { double_precision, mixed };
 enum class DensityMethod { continuity, summation };
 enum class BoundaryKind { open, periodic, reflecting };
 enum class DistensionSolver { safe_newton, bisection, newton };
-enum class Lattice { cubic, hexagonal };
+enum class Lattice { cubic, hexagonal, glass };
 enum class OnError { continue_run, abort };
 enum class FragmentLink { automatic, spacing, support };
 
