@@ -116,7 +116,8 @@ void describe(Describer& d, Scene& s) {
   d.integer("dimension", s.dimension, between(2, 3), "2: plane strain, masses per metre of depth");
   d.section("resolution", "how fine");
   d.number("spacing", s.spacing, "m", positive, "distance between particles at the start").required = true;
-  d.choice("lattice", s.lattice, "arrangement of the particles at the start");
+  d.choice("lattice", s.lattice,
+           "arrangement of the particles at the start; glass: evenly spread without rows, drawn by random.seed");
   d.section("time", "how long");
   d.number("end", s.time_end, "s", positive, "simulated time at which the run ends").required = true;
   d.integer("max_steps", s.max_steps, non_negative, "ends the run earlier; 0: no limit");
@@ -145,7 +146,7 @@ void describe(Describer& d, Scene& s) {
   d.section("run", "the machine");
   d.integer("threads", s.threads, between(0, 4096), "0: all cores; never changes the result");
   d.section("random", "chance");
-  d.integer("seed", s.seed, "of the flaws in brittle bodies");
+  d.integer("seed", s.seed, "of the flaws in brittle bodies, of jitter and glass");
 }
 
 }  // namespace ejecta

@@ -25,7 +25,7 @@ enum class DensityMethod { continuity, summation };
 /// reflecting: a wall, which solids press against and leave; symmetry: a plane that matter goes on behind.
 enum class BoundaryKind { open, periodic, reflecting, symmetry };
 enum class DistensionSolver { safe_newton, bisection, newton };
-enum class Lattice { cubic, hexagonal };
+enum class Lattice { cubic, hexagonal, glass };
 enum class OnError { continue_run, abort };
 enum class Switch { automatic, off, on };
 enum class FragmentLink { automatic, spacing, support };

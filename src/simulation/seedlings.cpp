@@ -59,7 +59,7 @@ template <int Dim>
 std::vector<Seedling<Dim>> fill_body(const Scene& scene, std::size_t b, const Material& material, int number) {
   const Body& body = scene.bodies[b];
   const double spacing = scene.spacing * body.spacing_factor;
-  const PointCloud<Dim> cloud = fill<Dim>(body, spacing, scene.lattice);
+  const PointCloud<Dim> cloud = fill<Dim>(body, spacing, scene.lattice, scene.seed);
   const std::vector<Formula> displacement = compile(body.profile.displacement);
   const std::vector<Formula> density =
       body.profile.density.empty() ? std::vector<Formula>{} : compile({body.profile.density});

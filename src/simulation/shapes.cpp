@@ -3,6 +3,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/random.hpp"
+#include "simulation/glass.hpp"
+
 namespace ejecta {
 
 namespace {
@@ -27,6 +30,8 @@ Vec<Dim> half_extent(const Body& body) {
 
 /// Lattice vectors and the points of one cell, for cells of volume (points per cell) * spacing^Dim.
 /// Hexagonal: triangular lattice in the plane, closest packing (stacking ABAB) in space, both as rectangular cells.
+/// A glass starts with one point a cubic cell, drawn from the size of two cells: drawn from one, bonds remember the
+/// rows.
 template <int Dim>
 struct Cell {
   Vec<Dim> edge;
@@ -35,7 +40,7 @@ struct Cell {
 
 template <int Dim>
 Cell<Dim> lattice_cell(Lattice lattice, double spacing) {
-  if (lattice == Lattice::cubic) return {Vec<Dim>::Constant(spacing), {Vec<Dim>::Constant(0.5)}};
+  if (lattice != Lattice::hexagonal) return {Vec<Dim>::Constant(spacing), {Vec<Dim>::Constant(0.5)}};
   const double root3 = std::numbers::sqrt3;
   if constexpr (Dim == 2) {
     const double a = spacing * std::sqrt(2 / root3);
@@ -70,7 +75,7 @@ bool inside(const Body& body, const Vec<Dim>& x) {
 }
 
 template <int Dim>
-PointCloud<Dim> fill(const Body& body, double spacing, Lattice lattice) {
+PointCloud<Dim> fill(const Body& body, double spacing, Lattice lattice, std::uint64_t seed) {
   Cell<Dim> cell = lattice_cell<Dim>(lattice, spacing);
   const Vec<Dim> half = half_extent<Dim>(body), center = first_components<Dim>(body.center);
   Eigen::Matrix<int, Dim, 1> cells;
@@ -86,10 +91,14 @@ PointCloud<Dim> fill(const Body& body, double spacing, Lattice lattice) {
   cloud.volume = cell.edge.prod() / static_cast<double>(cell.points.size());
   const Vec<Dim> corner = center - 0.5 * cells.template cast<double>().cwiseProduct(cell.edge);
   const int depth = Dim == 3 ? cells[Dim - 1] : 1;
+  std::uint64_t number = 0;
   for (int k = 0; k < depth; ++k)
     for (int j = 0; j < cells[1]; ++j)
       for (int i = 0; i < cells[0]; ++i)
-        for (const Vec<Dim>& fraction : cell.points) {
+        for (Vec<Dim> fraction : cell.points) {
+          if (lattice == Lattice::glass)
+            for (int a = 0; a < Dim; ++a) fraction[a] = 2 * uniform_random(seed, number, static_cast<std::uint64_t>(a));
+          ++number;
           Vec<Dim> index;
           index[0] = i;
           index[1] = j;
@@ -100,6 +109,11 @@ PointCloud<Dim> fill(const Body& body, double spacing, Lattice lattice) {
           if (inside<Dim>(body, x)) cloud.points.push_back(x);
         }
   if (cloud.points.empty()) return cloud;
+  if (lattice == Lattice::glass) {
+    cloud.volume = volume(body, Dim) / static_cast<double>(cloud.points.size());
+    relax<Dim>(cloud.points, body, std::pow(cloud.volume, 1.0 / Dim));
+    return cloud;
+  }
   // The points kept rarely add up to the volume of a round shape: a ball of 100 cells may be off by a sixth. Growing or
   // shrinking the whole cloud a little makes it exact.
   const double exact = volume(body, Dim) / static_cast<double>(cloud.points.size());
@@ -118,8 +132,8 @@ double volume(const Body& body, int dim) {
   return 4 * pi / 3 * (r * r * r - hole * hole * hole);
 }
 
-template PointCloud<2> fill<2>(const Body&, double, Lattice);
-template PointCloud<3> fill<3>(const Body&, double, Lattice);
+template PointCloud<2> fill<2>(const Body&, double, Lattice, std::uint64_t);
+template PointCloud<3> fill<3>(const Body&, double, Lattice, std::uint64_t);
 template bool inside<2>(const Body&, const Vec<2>&);
 template bool inside<3>(const Body&, const Vec<3>&);
 

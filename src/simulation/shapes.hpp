@@ -1,5 +1,6 @@
 #pragma once
-/// Bodies as clouds of points: a lattice cut by a shape.
+/// Bodies as clouds of points: a lattice cut by a shape, or a glass that fills it.
+#include <cstdint>
 #include <vector>
 
 #include "base/types.hpp"
@@ -14,9 +15,10 @@ struct PointCloud {
 };
 
 /// Particles of a body at about the given spacing [m] (edge of a cube of equal volume). The volumes of all points add
-/// up to that of the body: a box gets a whole number of cells along each edge, the cloud of a round shape is scaled.
+/// up to that of the body: a box gets a whole number of cells along each edge, the cloud of a round shape is scaled,
+/// and the points of a glass share the volume. The seed is that of the glass.
 template <int Dim>
-PointCloud<Dim> fill(const Body& body, double spacing, Lattice lattice);
+PointCloud<Dim> fill(const Body& body, double spacing, Lattice lattice, std::uint64_t seed = 0);
 
 /// Whether a point lies in the body.
 template <int Dim>

@@ -1,11 +1,12 @@
 #!/usr/bin/python3
 """Runs the impact experiments one after the other and puts them beside the laboratory.
 
-    tests/experiments/campaign.py --binary build/ejecta --out DIR [--quick] [--threads 2] [--only NAME]
+    tests/experiments/campaign.py --binary build/ejecta --out DIR [--quick | --trial] [--threads 2] [--only NAME]
 
 One folder a run in DIR; a run that is already finished there is not repeated, so the same line goes on after an
 interruption. Tables (CSV and Markdown) and figures (gnuplot, ffmpeg) end up in DIR/results.
---quick: the coarsest spacing with one seed. --only: runs whose name contains NAME; --report: no runs, results only.
+--quick: the coarsest spacing with one seed. --trial: one seed of everything at 3 mm, to try the campaign itself.
+--only: runs whose name contains NAME; --report: no runs, results only.
 """
 import argparse
 import os
@@ -38,7 +39,7 @@ def run(case, binary, folder, threads):
         environment = os.environ | {"OMP_WAIT_POLICY": "passive"}
         code = subprocess.run(command, stdout=log, stderr=subprocess.STDOUT, env=environment).returncode
     if code != 0:
-        print(f"{case.name}: exit {code}, see {folder.with_suffix('.log')}", file=sys.stderr)
+        print(f"{case.name}: exit {code}, see {log_of(folder)}", file=sys.stderr)
     return code == 0
 
 
@@ -49,10 +50,11 @@ def main():
     parser.add_argument("--threads", type=int, default=2)
     parser.add_argument("--only", default="")
     parser.add_argument("--quick", action="store_true")
+    parser.add_argument("--trial", action="store_true")
     parser.add_argument("--report", action="store_true", help="no new runs")
     options = parser.parse_args()
 
-    chosen = [c for c in cases(options.quick) if options.only in c.name]
+    chosen = [c for c in cases(options.quick, options.trial) if options.only in c.name]
     if not chosen:
         parser.error(f"no case is called {options.only}")
     binary, out = options.binary.resolve(), options.out.resolve()
@@ -62,6 +64,9 @@ def main():
             failed += not run(case, binary, out / case.name, options.threads)
     done = [c for c in chosen if results.finished(out / c.name)]
     results.write(done, out, binary)
+    for table in ("averages", "runs"):
+        if done:
+            print((out / "results" / f"{table}.md").read_text())
     print(f"{len(done)} of {len(chosen)} runs finished; results in {out / 'results'}")
     return 1 if failed else 0
 

@@ -2,10 +2,10 @@
 import csv
 import subprocess
 
-# What the largest fragment weighs [share of the target], and who says so.
+# What the largest fragment weighs [share of the target] and its speed [m/s] where it is known, and who says so.
 REFERENCES = {
-    "pumice_impact": {"laboratory": 0.0996, "GASPHiA note": 0.0835},
-    "basalt_impact": {"laboratory": 0.31, "MPM study": 0.246},
+    "pumice_impact": {"laboratory": (0.0996, None), "GASPHiA note": (0.0835, None)},
+    "basalt_impact": {"laboratory": (0.31, 1.35), "SPH study": (0.30, 1.35), "MPM study": (0.246, 2.06)},
 }
 TITLES = {
     "pumice_impact": "Nylon ball into porous pumice, 2.58 km/s",
@@ -30,7 +30,7 @@ def label(case):
 def reference_lines(scene, vertical):
     """What the largest fragment weighs elsewhere, as dashed lines with their names."""
     commands = []
-    for k, (who, share) in enumerate(REFERENCES[scene].items()):
+    for k, (who, share) in enumerate((who, share) for who, (share, _) in REFERENCES[scene].items()):
         if vertical:
             line = f"first {share}, graph 0 to first {share}, graph 1"
             place = f"first {share}, graph {0.97 - 0.06 * k} right offset -0.5,0"
@@ -71,7 +71,7 @@ def draw_resolution(scene, rows, folder):
     """Mass of the largest fragment against spacing, one point a seed."""
     points = []
     coarsest = max(row["spacing [mm]"] for row in rows)
-    highest = max(*REFERENCES[scene].values(), *(row["largest [%]"] / 100 for row in rows))
+    highest = max(*(share for share, _ in REFERENCES[scene].values()), *(row["largest [%]"] / 100 for row in rows))
     for k, configuration in enumerate(dict.fromkeys(row["configuration"] for row in rows)):
         data = folder / f"{scene}_{configuration}_resolution.csv"
         with open(data, "w", newline="") as text:

@@ -6,11 +6,13 @@ import re
 import shutil
 import statistics
 import subprocess
+import tomllib
 
 import figures
 
 THRESHOLDS = [0.5, 0.9, 0.99, 1.01]  # fragments.damage_threshold; beyond 1 damage cuts no links at all
 SETTLED = 0.1  # of the last value
+CORE = {"distance": 0.3, "filling": 0.5}  # within this many radii of the target's centre; at least so much of its ellipsoid
 LINKING = re.compile(r"linking length ([\d.]+): (\d+), largest ([\d.]+) %, dust ([\d.]+) %")
 
 
@@ -51,26 +53,67 @@ def by_linking_length(log):
     return {float(m[1]): float(m[3]) for m in LINKING.finditer(log.read_text())}
 
 
+def metres(text):
+    """A length as resolved.toml writes it: "0.03 m"."""
+    return float(text.split()[0])
+
+
+def ball(folder):
+    """Radius [m] and centre [m] of the target as the run started with it."""
+    with open(folder / "resolved.toml", "rb") as text:
+        target = next(b for b in tomllib.load(text)["bodies"] if b["name"] == "target")
+    return metres(target["radius"]), [metres(c) for c in target["center"]]
+
+
+def place(piece, time, target):
+    """Where in the target a piece has sat: the distance of its centre from the target's in radii, run back to the start
+    with its velocity, and how much of the ellipsoid of its semi-axes it fills. A shell has a large ellipsoid."""
+    radius, center = target
+    back = [piece[f"centre {a}"] - time * piece[f"velocity {a}"] - c for a, c in zip("xyz", center)]
+    ellipsoid = math.prod(piece[f"semi-axis {a}"] for a in "abc") / radius**3
+    return math.hypot(*back) / radius, piece["mass fraction"] / ellipsoid if ellipsoid > 0 else math.nan
+
+
+def speed(piece):
+    return math.hypot(*(piece[f"velocity {axis}"] for axis in "xyz"))
+
+
+def is_core(distance, filling):
+    return distance < CORE["distance"] and filling > CORE["filling"]
+
+
+def word_for(distance, filling):
+    """The core, a shell, or a chunk that is neither."""
+    return "core" if is_core(distance, filling) else "shell" if filling < CORE["filling"] else "chunk"
+
+
 def outcome(case, folder):
     """What one run says, one row of the tables."""
     s, pieces = summary(folder), table(folder / "fragments.csv")
     history, largest = table(folder / "history.csv"), table(folder / "largest_fragment.csv")
     links = by_linking_length(folder / "run.log")
     dust = pieces["number"].index(0)
-    core = [k for k in range(len(pieces["number"])) if k != dust][:1]  # the heaviest comes first
-    speed = [math.hypot(*(pieces[f"velocity {axis}"][k] for axis in "xyz")) for k in core]
-    second = pieces["mass fraction"][1] if len(pieces["number"]) > 2 else 0
+    whole = [{name: column[k] for name, column in pieces.items()}
+             for k in range(len(pieces["number"])) if k != dust]  # the heaviest comes first
+    places = [place(piece, s["time_s"], ball(folder)) for piece in whole]
+    core = next((piece for piece, where in zip(whole, places) if is_core(*where)), None)
     return {
         "scene": case.scene,
         "configuration": case.configuration,
+        "lattice": case.lattice,
         "spacing [mm]": case.spacing,
         "seed": case.seed,
         "particles": s["particles"],
         "precision": s["precision"],
         "time [us]": round(1e6 * s["time_s"], 1),
         "largest [%]": round(100 * s["largest_fragment_mass_fraction"], 2),
-        "its speed [m/s]": round(speed[0], 2) if speed else "",
-        "second [%]": round(100 * second, 2),
+        "its speed [m/s]": round(speed(whole[0]), 2) if whole else "",
+        "it is": word_for(*places[0]) if whole else "",
+        "its distance [radii]": round(places[0][0], 2) if whole else "",
+        "it fills": round(places[0][1], 2) if whole else "",
+        "core [%]": round(100 * core["mass fraction"], 2) if core else 0,
+        "core speed [m/s]": round(speed(core), 2) if core else "",
+        "second [%]": round(100 * whole[1]["mass fraction"], 2) if len(whole) > 1 else 0,
         "fragments": s["fragments"],
         "dust [%]": round(100 * pieces["mass fraction"][dust], 1),
         "damaged [%]": round(100 * history["damaged mass fraction"][-1], 1),
@@ -121,18 +164,25 @@ def spread(values):
 
 
 def averages(rows):
-    """One row for each scene, configuration and spacing: mean and standard deviation over the seeds."""
+    """One row for each scene, configuration, lattice and spacing: mean and standard deviation over the seeds; below
+    those of a scene what others have found."""
     groups = {}
     for row in rows:
-        groups.setdefault((row["scene"], row["configuration"], row["spacing [mm]"]), []).append(row)
+        groups.setdefault((row["scene"], row["configuration"], row["lattice"], row["spacing [mm]"]), []).append(row)
     answer = []
-    for (scene, configuration, spacing), group in groups.items():
-        answer.append({"scene": scene, "configuration": configuration, "spacing [mm]": spacing, "seeds": len(group),
-                       "particles": group[0]["particles"]} |
+    for (scene, configuration, lattice, spacing), group in groups.items():
+        answer.append({"scene": scene, "configuration": configuration, "lattice": lattice, "spacing [mm]": spacing,
+                       "seeds": len(group), "particles": group[0]["particles"]} |
                       {name: spread([row[name] for row in group if row[name] != ""])
-                       for name in ("largest [%]", "its speed [m/s]", "second [%]", "dust [%]")
-                       if any(row[name] != "" for row in group)})
-    return answer
+                       for name in ("largest [%]", "its speed [m/s]", "its distance [radii]", "it fills", "core [%]",
+                                    "second [%]", "fragments", "dust [%]", "steps", "wall [s]")
+                       if any(row[name] != "" for row in group)} |
+                      {"it is": ", ".join(sorted({row["it is"] for row in group}))})
+    for scene in dict.fromkeys(row["scene"] for row in rows):
+        for who, (share, pace) in figures.REFERENCES[scene].items():
+            answer.append({"scene": scene, "configuration": who, "largest [%]": f"{100 * share:g}",
+                           "its speed [m/s]": pace or ""})
+    return sorted(answer, key=lambda row: row["scene"])
 
 
 def write(done, out, binary):

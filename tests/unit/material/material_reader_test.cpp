@@ -69,7 +69,9 @@ TEST(ReadMaterial, BasaltInSi) {
   EXPECT_EQ(eos.A, 26.7e9);
   EXPECT_EQ(eos.E_iv, 4.72e6);
   EXPECT_EQ(basalt.elastic->shear_modulus, 22.7e9);
-  EXPECT_EQ(std::get<VonMises>(*basalt.strength).yield_stress, 3.5e9);
+  EXPECT_EQ(std::get<Collins>(*basalt.strength).intact.limit, 3.5e9);
+  EXPECT_EQ(std::get<Collins>(*basalt.strength).damaged_friction, 0.8);
+  EXPECT_EQ(std::get<VonMises>(*read_material("basalt_von_mises", {library}).strength).yield_stress, 3.5e9);
   EXPECT_EQ(basalt.melt_energy, 3.4e6);
   EXPECT_EQ(basalt.damage->weibull_k, 5e34);
   EXPECT_EQ(basalt.damage->crack_speed_factor, 0.4);
