@@ -77,7 +77,9 @@ std::map<std::string, ColourRange> default_ranges(const Scene& scene, const std:
 
 template <int Dim>
 Frames<Dim>::Frames(const Simulation<Dim>& sim, std::filesystem::path folder, bool catalyst)
-    : folder_(std::move(folder)), view_(choose_view(sim.scene)), ranges_(default_ranges(sim.scene, sim.materials, sim.outset)) {
+    : folder_(std::move(folder)),
+      view_(choose_view(sim.scene)),
+      ranges_(default_ranges(sim.scene, sim.materials, sim.outset)) {
   const InSitu& insitu = sim.scene.insitu;
   std::filesystem::create_directories(folder_ / "images");
   auto grid_of = [&](int panels) {

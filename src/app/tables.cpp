@@ -30,7 +30,8 @@ FragmentContext fragment_context(const Simulation<Dim>& sim) {
   for (const BodyAtOutset& body : sim.outset.bodies) context.body_mass.push_back(body.mass);
   const auto label = sim.particles.label(Label::body);
   const auto first = std::ranges::find(label, static_cast<std::int32_t>(context.target)) - label.begin();
-  context.smallest = sim.scene.fragments.min_particles * sim.particles.column(Field::mass)[static_cast<std::size_t>(first)];
+  context.smallest =
+      sim.scene.fragments.min_particles * sim.particles.column(Field::mass)[static_cast<std::size_t>(first)];
   for (const Body& b : sim.scene.bodies) context.bodies.push_back(b.name);
   for (const Material& m : sim.materials) context.materials.push_back(m.name);
   return context;

@@ -15,8 +15,7 @@ Watch<Dim>::Watch(const Simulation<Dim>& sim, std::filesystem::path folder, cons
   status_.scene = sim.scene.title.empty() ? sim.scene.name : sim.scene.title;
   status_.time_end = sim.scene.time_end;
   status_.particles = static_cast<std::int64_t>(sim.particles.size());
-  if (sim.scene.fragments.enabled)
-    status_.smallest_fragment = context_.share(context_.smallest);
+  if (sim.scene.fragments.enabled) status_.smallest_fragment = context_.share(context_.smallest);
   status_.fragment_target = context_.bodies[context_.target];
 }
 
@@ -38,8 +37,7 @@ void Watch<Dim>::gather(const Simulation<Dim>& sim) {
   status_.record("internal energy", "J", row.time, row.internal_energy);
   status_.angular_momentum_error = row.angular_momentum_error;
   status_.record("energy error", "1", row.time, row.energy_error);
-  if (row.angular_momentum_error)
-    status_.record("angular momentum error", "1", row.time, *row.angular_momentum_error);
+  if (row.angular_momentum_error) status_.record("angular momentum error", "1", row.time, *row.angular_momentum_error);
   status_.record("max pressure", "Pa", row.time, row.max_pressure);
   if (row.damaged_mass_fraction) status_.record("damaged mass fraction", "1", row.time, *row.damaged_mass_fraction);
   if (row.largest_fragment_mass_fraction)

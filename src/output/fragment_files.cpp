@@ -98,8 +98,7 @@ std::vector<BodyFragments> fragments_by_body(const FragmentTable& table, const F
   for (std::size_t b = 0; b < context.bodies.size(); ++b)
     result.push_back({context.bodies[b], context.body_mass[b],
                       std::ranges::count_if(table.fragments, [&](const Fragment& f) { return f.mass_of(b) > 0; }),
-                      context.share(table.largest_mass(b), b),
-                      context.share(mass_of(table.dust_mass_by_body, b), b)});
+                      context.share(table.largest_mass(b), b), context.share(mass_of(table.dust_mass_by_body, b), b)});
   return result;
 }
 

@@ -28,8 +28,8 @@ struct FragmentContext {
 /// Outcome for one body; fractions count its own matter over its own mass, wherever it is.
 struct BodyFragments {
   std::string body;
-  double mass = 0;                                        ///< kg (kg/m in plane strain)
-  std::int64_t fragments = 0;                             ///< with matter of it
+  double mass = 0;                                           ///< kg (kg/m in plane strain)
+  std::int64_t fragments = 0;                                ///< with matter of it
   double largest_mass_fraction = 0, dust_mass_fraction = 0;  ///< 1
 };
 std::vector<BodyFragments> fragments_by_body(const FragmentTable& table, const FragmentContext& context);

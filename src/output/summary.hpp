@@ -14,7 +14,8 @@ struct BodySummary {
   double mass = 0;  ///< kg (kg/m in plane strain)
   std::optional<std::int64_t> fragments;
   std::optional<double> largest_fragment_mass_fraction, dust_mass_fraction;
-  std::optional<double> pressure_peak_max, pressure_peak_median;  ///< Pa; half of its mass has seen more than the median
+  std::optional<double> pressure_peak_max,
+      pressure_peak_median;  ///< Pa; half of its mass has seen more than the median
 };
 
 /// Values that do not apply stay empty and are written as null, like numbers that are not finite.
@@ -41,7 +42,7 @@ struct Summary {
   std::optional<double> largest_fragment_mass_fraction;  ///< of the target, over its mass
   std::optional<std::int64_t> fragments;                 ///< of all bodies
   std::vector<BodySummary> bodies;                       ///< an object by name
-  int exit = 0;  ///< exit code: 0, 2, 3
+  int exit = 0;                                          ///< exit code: 0, 2, 3
 };
 
 /// One JSON object, one key a line, in the order of the members.

@@ -25,10 +25,10 @@ Totals totals(const Particles<Dim>& particles);
 
 /// What acts on driven bodies from outside, and what it has done so far.
 struct ExternalLoad {
-  Vec<3> force = Vec<3>::Zero();    ///< at present [N] (N/m in plane strain)
-  double power = 0;                 ///< of that force [W]
-  Vec<3> torque = Vec<3>::Zero();   ///< of that force about the origin [N m]
-  Vec<3> impulse = Vec<3>::Zero();  ///< since the start [kg m/s]
+  Vec<3> force = Vec<3>::Zero();            ///< at present [N] (N/m in plane strain)
+  double power = 0;                         ///< of that force [W]
+  Vec<3> torque = Vec<3>::Zero();           ///< of that force about the origin [N m]
+  Vec<3> impulse = Vec<3>::Zero();          ///< since the start [kg m/s]
   Vec<3> angular_impulse = Vec<3>::Zero();  ///< since the start, about the origin [kg m^2/s]
   double work = 0;                          ///< since the start [J]
   ExternalLoad& operator+=(const ExternalLoad& o);
@@ -49,9 +49,9 @@ struct ConservationErrors {
   double mass, momentum, angular_momentum, energy;
 };
 /// Momentum means nothing where faces reflect, angular momentum nothing where there are faces at all: they are not
-/// counted among the loads. Pair forces along the pair conserve angular momentum; stress, tensor smoothing and corrected
-/// gradients turn them out of that line.
-/// Energy is measured against the largest of total energy and kinetic energy at the start, and external work.
+/// counted among the loads. Pair forces along the pair conserve angular momentum; stress, tensor smoothing and
+/// corrected gradients turn them out of that line. Energy is measured against the largest of total energy and kinetic
+/// energy at the start, and external work.
 ConservationErrors conservation_errors(const Totals& initial, const Totals& now, const ExternalLoad& external = {});
 /// Pressures that the matter of a body has seen at their highest, from Field::pressure_peak [Pa]; half of the mass has
 /// seen at least the median.

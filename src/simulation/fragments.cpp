@@ -239,8 +239,7 @@ std::array<FragmentSensitivity, 3> fragment_sensitivity(const FragmentInput& in,
     FragmentSettings changed = settings;
     changed.linking_length *= factors[k];
     const FragmentTable table = describe_groups(in, find_groups(in, changed));
-    result[k] = {changed.linking_length, table.fragments.size(),
-                 table.largest_mass(target) / target_mass,
+    result[k] = {changed.linking_length, table.fragments.size(), table.largest_mass(target) / target_mass,
                  target < table.dust_mass_by_body.size() ? table.dust_mass_by_body[target] / target_mass : 0.0};
   }
   return result;

@@ -72,9 +72,9 @@ struct Fragment {
 };
 
 struct FragmentTable {
-  std::vector<Fragment> fragments;       ///< in the order of Groups
-  std::vector<std::int32_t> number;      ///< per particle: number of its fragment, 0 is dust
-  Carried dust;                          ///< everything in no fragment: fragments + dust = all particles
+  std::vector<Fragment> fragments;        ///< in the order of Groups
+  std::vector<std::int32_t> number;       ///< per particle: number of its fragment, 0 is dust
+  Carried dust;                           ///< everything in no fragment: fragments + dust = all particles
   std::vector<double> dust_mass_by_body;  ///< kg, by body label
 
   /// Mass of the largest piece of a body, counting that body's matter alone [kg]; 0 if there is none.
@@ -83,7 +83,8 @@ struct FragmentTable {
 
 /// Which particles belong together.
 struct Groups {
-  /// Of every particle: 1, 2, ... or 0 for dust. First those with most of the target's matter, among equals the heaviest.
+  /// Of every particle: 1, 2, ... or 0 for dust. First those with most of the target's matter, among equals the
+  /// heaviest.
   std::vector<std::int32_t> number;
   std::vector<BoxShift> shift;  ///< box lengths to add to a particle's place so that its group is in one piece
 };
@@ -93,8 +94,8 @@ struct Groups {
 ///  - spacing: if |x_ij| < b (d_i + d_j) / 2;
 ///  - support: if n_h |H_i x_ij| < b or n_h |H_j x_ij| < b: nearer than b node spacings in the metric of either;
 ///  - automatic: by support where H is a tensor, else by spacing.
-/// Distances are measured across periodic faces, too. Particles damaged to settings.damage_threshold or beyond and those
-/// of gases have no friends; groups below settings.min_particles are dust.
+/// Distances are measured across periodic faces, too. Particles damaged to settings.damage_threshold or beyond and
+/// those of gases have no friends; groups below settings.min_particles are dust.
 Groups find_groups(const FragmentInput& in, const FragmentSettings& settings);
 
 /// Adds up what every group carries.

@@ -12,8 +12,8 @@ struct Friends {
   std::vector<std::uint32_t> root;
   std::vector<BoxShift> shift;  ///< as in Groups
 };
-/// Only `members` (ascending) have friends. find_groups says when two are friends. Linear in n however far the particles
-/// fly apart, because cells are hashed and come in sizes: one grid per octave of a particle's reach.
+/// Only `members` (ascending) have friends. find_groups says when two are friends. Linear in n however far the
+/// particles fly apart, because cells are hashed and come in sizes: one grid per octave of a particle's reach.
 Friends join_friends(const FragmentInput& in, const std::vector<std::uint32_t>& members,
                      const FragmentSettings& settings);
 

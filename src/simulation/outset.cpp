@@ -44,8 +44,9 @@ Outset outset(const Particles<Dim>& p, const Scene& scene, const std::vector<Mat
     const double density = p.column(Field::density)[i], u = relative_speed;
     const bool gas = is_gas(material_of(i));
     start.density = std::max(start.density, gas ? density : 1.2 * density);
-    start.pressure = std::max({start.pressure, std::abs(p.column(Field::pressure)[i]),
-                               gas ? density * u * u : 0.1 * density * u * std::max(u, p.column(Field::sound_speed)[i])});
+    start.pressure =
+        std::max({start.pressure, std::abs(p.column(Field::pressure)[i]),
+                  gas ? density * u * u : 0.1 * density * u * std::max(u, p.column(Field::sound_speed)[i])});
     if (p.has(Field::deviatoric_stress))
       for (int k = 0; k < deviator_size<Dim>; ++k)
         start.pressure = std::max(start.pressure, std::abs(p.column(Field::deviatoric_stress, k)[i]));

@@ -33,9 +33,9 @@ struct Outset {
 template <int Dim>
 Outset outset(const Particles<Dim>& particles, const Scene& scene, const std::vector<Material>& materials);
 
-/// The body that fragments are counted of: scene.fragments.target, else the heaviest body at rest, else the body slowest
-/// about the centre of mass of all of them (of two bodies the heavier one). Driven bodies and gases are left out unless
-/// there is nothing else.
+/// The body that fragments are counted of: scene.fragments.target, else the heaviest body at rest, else the body
+/// slowest about the centre of mass of all of them (of two bodies the heavier one). Driven bodies and gases are left
+/// out unless there is nothing else.
 std::size_t target_body(const Scene& scene, const std::vector<BodyAtOutset>& bodies);
 
 /// For FragmentInput: pieces of different bodies are different fragments; a gas has none.

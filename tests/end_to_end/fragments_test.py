@@ -1,4 +1,5 @@
-"""What counts as a fragment, and of what: the target's pieces over the target's mass, across periodic faces, body by body."""
+"""What counts as a fragment, and of what: the target's pieces over the target's mass, across periodic faces, body by
+body; what particles remember of their peaks; which momenta are judged."""
 import json
 import unittest
 from ejecta_run import RunTest, Snapshot, Table, ejecta, settings, summary
