@@ -19,6 +19,7 @@ TEST(PeaksStage, RemembersTheExtremesOfEveryParticleAndWhereItWas) {
     sim->clock.step = k + 1;
     predict(sim->particles, 1e-7, 1e-7);
     sim->clock.dt = 1e-7;
+    sim->clock.time += 1e-7;
     evaluate(*sim);
     const auto p = by_id(sim->particles, Field::pressure), u = by_id(sim->particles, Field::specific_energy);
     const auto rho = by_id(sim->particles, Field::density);
