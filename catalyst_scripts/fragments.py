@@ -1,5 +1,5 @@
 # script-version: 2.0
-"""The particles coloured by the fragment they belong to: the largest grey, dust small and pale."""
+"""The particles coloured by the fragment they belong to: the largest of the target grey, dust small and pale."""
 import colorsys
 import math
 
@@ -18,12 +18,13 @@ LARGEST = (0.45, 0.47, 0.50)
 
 
 def find_largest():
-    """Number of the heaviest fragment, 1 where there is no table of them."""
+    """Number of the fragment with most of the target's matter; -1, which no fragment has, where none has any."""
     if not ejecta.has_data(pieces):
-        return 1
+        return -1
     arrays = ejecta.data_of(pieces).GetPointData()
-    mass, number = arrays.GetArray("mass"), arrays.GetArray("number")
-    return int(number.GetTuple1(max(range(mass.GetNumberOfTuples()), key=mass.GetTuple1)))
+    mass, number = arrays.GetArray("target_mass"), arrays.GetArray("number")
+    largest = max(range(mass.GetNumberOfTuples()), key=mass.GetTuple1)
+    return int(number.GetTuple1(largest)) if mass.GetTuple1(largest) > 0 else -1
 
 
 def make_colours():
@@ -46,7 +47,7 @@ def make_colours():
 
 
 def make_view():
-    view = ejecta.View("fragments", "fragments, the largest grey")
+    view = ejecta.View("fragments", f"fragments, the largest of {ejecta.settings()['fragment_target']} grey")
     view.look_at_scene()
     view.spheres(source, ejecta.NUMBER, make_colours())
     view.scale_bar(0.03, 0.04, 0.2 * ejecta.settings()["view_size"])

@@ -79,10 +79,12 @@ std::optional<std::string> fragment_distribution(const fs::path& run, const Figu
   if (!fs::exists(run / "fragment_distribution.csv") || read_csv(run / "fragment_distribution.csv").rows.empty())
     return {};
   std::string script = preamble("fragment_distribution", settings.title, "cumulative fragment mass distribution");
+  script += "set xlabel " +
+            quoted("mass m of " + settings.fragment_target + " in a fragment / mass of " + settings.fragment_target) +
+            " noenhanced\n";
   script += R"(set logscale xy
 set format x '10^{%L}'
 set format y '10^{%L}'
-set xlabel 'fragment mass m / target mass'
 set ylabel 'number of fragments ≥ m'
 stats 'fragment_distribution.csv' using 2 nooutput
 low = 10**floor(log10(STATS_min) - 0.3)
@@ -105,10 +107,11 @@ plot 'fragment_distribution.csv' using 2:3 with steps ls 1, '' using 2:3 with po
 
 std::optional<std::string> largest_fragment(const fs::path& run, const FigureSettings& settings) {
   if (!fs::exists(run / "largest_fragment.csv") || read_csv(run / "largest_fragment.csv").rows.empty()) return {};
-  return preamble("largest_fragment", settings.title, "largest fragment") +
-         fmt::format(fmt::runtime(time_axis), "largest_fragment.csv") + R"(set ylabel 'mass / target mass [%]'
+  return preamble("largest_fragment", settings.title, "largest fragment of " + settings.fragment_target) +
+         fmt::format(fmt::runtime(time_axis), "largest_fragment.csv") + "set ylabel " +
+         quoted("mass / mass of " + settings.fragment_target + " [%]") + R"( noenhanced
 set yrange [0:*]
-set y2label 'number of fragments'
+set y2label 'number of fragments of all bodies'
 set y2range [0:*]
 set y2tics nomirror
 set border 11

@@ -10,6 +10,7 @@ namespace ejecta {
 
 struct FigureSettings {
   std::string title;                                                   ///< over every plot
+  std::string fragment_target;                                         ///< body that fragment masses refer to
   double resolution_limit = std::numeric_limits<double>::quiet_NaN();  ///< smallest mass counted as a fragment [kg]
 };
 

@@ -24,8 +24,14 @@ ParticleView particle_view(const Particles<Dim>& p) {
 }
 
 template <int Dim>
-FragmentInput fragment_input(const Particles<Dim>& p, const Scene& scene) {
+FragmentInput fragment_input(const Simulation<Dim>& sim) {
+  const Particles<Dim>& p = sim.particles;
+  const Boundary& boundary = sim.scene.boundary;
   FragmentInput in;
+  for (std::size_t a = 0; a < Dim; ++a)
+    if (boundary.kind[a] == BoundaryKind::periodic) in.box[a] = {boundary.min[a], boundary.max[a] - boundary.min[a]};
+  in.piece_of_body = pieces_of_bodies(sim.scene, sim.materials, sim.body_material);
+  in.target = static_cast<std::int32_t>(target_body(sim.scene, sim.outset.bodies));
   for (int a = 0; a < Dim; ++a) {
     in.position[static_cast<std::size_t>(a)] = p.column(Field::position, a);
     in.velocity[static_cast<std::size_t>(a)] = p.column(Field::velocity, a);
@@ -37,7 +43,7 @@ FragmentInput fragment_input(const Particles<Dim>& p, const Scene& scene) {
   const ParticleView view = particle_view(p);
   in.smoothing_length = view.smoothing_length;
   in.smoothing_metric = view.smoothing_metric;
-  in.nodes_per_h = scene.numerics.nodes_per_h;
+  in.nodes_per_h = sim.scene.numerics.nodes_per_h;
   in.id = p.label(Label::id);
   in.body = p.label(Label::body);
   in.material = p.label(Label::material);
@@ -65,8 +71,8 @@ Channel FrameChannels<Dim>::particle_channel(const Particles<Dim>& p, const std:
 }
 
 template <int Dim>
-Channel FrameChannels<Dim>::fragment_channel(const FragmentTable& table) {
-  enum { x, y, z, mass, vx, vy, vz, size, mean_damage, mean_distension };
+Channel FrameChannels<Dim>::fragment_channel(const FragmentTable& table, std::size_t target) {
+  enum { x, y, z, mass, vx, vy, vz, size, mean_damage, mean_distension, target_mass };
   for (auto& column : fragment_columns_) column.clear();
   fragment_numbers_.clear();
   for (const Fragment& f : table.fragments) {
@@ -77,6 +83,7 @@ Channel FrameChannels<Dim>::fragment_channel(const FragmentTable& table) {
     fragment_columns_[mass].push_back(f.carried.mass);
     fragment_columns_[size].push_back(f.semi_axes[0]);
     fragment_columns_[mean_damage].push_back(f.mean_damage);
+    fragment_columns_[target_mass].push_back(f.mass_of(target));
     fragment_columns_[mean_distension].push_back(f.mean_distension);
     fragment_numbers_.push_back(f.number);
   }
@@ -86,6 +93,7 @@ Channel FrameChannels<Dim>::fragment_channel(const FragmentTable& table) {
   channel.count = fragment_numbers_.size();
   channel.position = {c[x], c[y], c[z]};
   channel.fields = {{"mass", Dim == 3 ? "kg" : "kg/m", {c[mass]}},
+                    {"target_mass", Dim == 3 ? "kg" : "kg/m", {c[target_mass]}},
                     {"velocity", "m/s", {c[vx], c[vy], c[vz]}},
                     {"longest_semi_axis", "m", {c[size]}},
                     {"damage", "1", {c[mean_damage]}},
@@ -105,17 +113,17 @@ std::vector<Channel> FrameChannels<Dim>::update(const Simulation<Dim>& sim, cons
   }
   ellipsoids_ = find_ellipsoids(sim.particles, plane_y, sim.scene.numerics.nodes_per_h);
   all.push_back(ellipsoids_.channel("ellipsoids"));
-  if (fragments) all.push_back(fragment_channel(*fragments));
+  if (fragments) all.push_back(fragment_channel(*fragments, target_body(sim.scene, sim.outset.bodies)));
   return all;
 }
 
 template FieldView field_view<2>(const Particles<2>&, Field);
 template ParticleView particle_view<2>(const Particles<2>&);
-template FragmentInput fragment_input<2>(const Particles<2>&, const Scene&);
+template FragmentInput fragment_input<2>(const Simulation<2>&);
 template class FrameChannels<2>;
 template FieldView field_view<3>(const Particles<3>&, Field);
 template ParticleView particle_view<3>(const Particles<3>&);
-template FragmentInput fragment_input<3>(const Particles<3>&, const Scene&);
+template FragmentInput fragment_input<3>(const Simulation<3>&);
 template class FrameChannels<3>;
 
 }  // namespace ejecta

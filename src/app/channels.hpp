@@ -22,7 +22,7 @@ ParticleView particle_view(const Particles<Dim>& particles);
 
 /// The columns of a simulation as fragments see them.
 template <int Dim>
-FragmentInput fragment_input(const Particles<Dim>& particles, const Scene& scene);
+FragmentInput fragment_input(const Simulation<Dim>& sim);
 
 /// The channels of one frame. They point into the simulation, the slice, the fragments and this object, which keeps the
 /// derived columns.
@@ -36,12 +36,12 @@ class FrameChannels {
 
  private:
   Channel particle_channel(const Particles<Dim>& p, const std::optional<FragmentTable>& fragments);
-  Channel fragment_channel(const FragmentTable& table);
+  Channel fragment_channel(const FragmentTable& table, std::size_t target);
 
   std::vector<double> zeros_;
   std::vector<OwnedField> tensor_fields_;
   Ellipsoids ellipsoids_;
-  std::array<std::vector<double>, 10> fragment_columns_;
+  std::array<std::vector<double>, 11> fragment_columns_;
   std::vector<std::int32_t> fragment_numbers_;
 };
 

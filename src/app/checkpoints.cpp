@@ -42,9 +42,11 @@ CheckpointView checkpoint_view(const Simulation<Dim>& sim, const std::string& re
                   {"initial_momentum_z", t.momentum[2]},
                   {"external_power", e.power},
                   {"external_work", e.work}};
-  for (int a = 0; a < Dim; ++a) {
+  for (int a = 0; a < 3; ++a) {
     view.scalars[fmt::format("external_force_{}", a)] = e.force[a];
+    view.scalars[fmt::format("external_torque_{}", a)] = e.torque[a];
     view.scalars[fmt::format("external_impulse_{}", a)] = e.impulse[a];
+    view.scalars[fmt::format("external_angular_impulse_{}", a)] = e.angular_impulse[a];
   }
   const Particles<Dim>& p = sim.particles;
   for (Field field : p.fields()) {
@@ -87,9 +89,11 @@ void restore(Simulation<Dim>& sim, const Checkpoint& c) {
   t.momentum = {c.scalar("initial_momentum_x"), c.scalar("initial_momentum_y"), c.scalar("initial_momentum_z")};
   sim.external.power = c.scalar("external_power");
   sim.external.work = c.scalar("external_work");
-  for (int a = 0; a < Dim; ++a) {
+  for (int a = 0; a < 3; ++a) {
     sim.external.force[a] = c.scalar(fmt::format("external_force_{}", a));
+    sim.external.torque[a] = c.scalar(fmt::format("external_torque_{}", a));
     sim.external.impulse[a] = c.scalar(fmt::format("external_impulse_{}", a));
+    sim.external.angular_impulse[a] = c.scalar(fmt::format("external_angular_impulse_{}", a));
   }
   sim.lists.invalidate();
 }

@@ -57,21 +57,15 @@ View choose_view(const Scene& scene) {
   return view;
 }
 
-std::map<std::string, ColourRange> default_ranges(const Scene& scene, const std::vector<Material>& materials) {
-  double fastest = 0, densest = 0, distension = 1, stiffest = 0;
-  for (const Body& b : scene.bodies) {
-    fastest = std::max(fastest, speed(b));
-    if (is_set(b.density)) densest = std::max(densest, b.density);
-    if (is_set(b.pressure)) stiffest = std::max(stiffest, b.pressure);
-  }
-  for (const Material& m : materials) {
-    densest = std::max(densest, m.solid() ? 1.2 * m.bulk_density() : densest);
+std::map<std::string, ColourRange> default_ranges(const Scene& scene, const std::vector<Material>& materials,
+                                                  const Outset& outset) {
+  double distension = 1;
+  for (const Material& m : materials)
     if (m.porosity) distension = std::max(distension, m.porosity->initial_distension());
-    // A tenth of the pressure of a one-dimensional impact, rho v^2: what is left some way from the point of impact.
-    if (m.solid()) stiffest = std::max(stiffest, 0.1 * m.bulk_density() * fastest * fastest);
-  }
-  if (fastest == 0 && densest > 0) fastest = std::sqrt(stiffest / densest);
+  const double stiffest = outset.pressure, densest = outset.density;
+  const double fastest = outset.speed > 0 ? outset.speed : std::sqrt(stiffest / densest);
   std::map<std::string, ColourRange> ranges{{"pressure", {std::min(0.0, -0.05 * stiffest), stiffest}},
+                                            {"pressure_peak", {0, stiffest}},
                                             {"density", {0, densest}},
                                             {"velocity", {0, fastest}},
                                             {"distension", {1, std::max(1.01, distension)}},
@@ -83,7 +77,9 @@ std::map<std::string, ColourRange> default_ranges(const Scene& scene, const std:
 
 template <int Dim>
 Frames<Dim>::Frames(const Simulation<Dim>& sim, std::filesystem::path folder, bool catalyst)
-    : folder_(std::move(folder)), view_(choose_view(sim.scene)), ranges_(default_ranges(sim.scene, sim.materials)) {
+    : folder_(std::move(folder)),
+      view_(choose_view(sim.scene)),
+      ranges_(default_ranges(sim.scene, sim.materials, sim.outset)) {
   const InSitu& insitu = sim.scene.insitu;
   std::filesystem::create_directories(folder_ / "images");
   auto grid_of = [&](int panels) {
@@ -108,6 +104,7 @@ Frames<Dim>::Frames(const Simulation<Dim>& sim, std::filesystem::path folder, bo
   settings.ranges = ranges_;
   settings.nodes_per_h = sim.scene.numerics.nodes_per_h;
   settings.radius_per_smoothing_length = 0.6 / settings.nodes_per_h;
+  settings.fragment_target = sim.scene.bodies[target_body(sim.scene, sim.outset.bodies)].name;
   settings.kernel_support = kernel_support(sim.scene.numerics.kernel);
   bridge_ = std::make_unique<CatalystBridge>(pipeline_scripts(insitu.pipelines, sim.scene.fragments.enabled), settings);
 }
@@ -186,7 +183,7 @@ double insitu_seconds(const StageTimers& timers) {
 
 template <int Dim>
 void Frames<Dim>::find_fragments(Simulation<Dim>& sim) {
-  fragments_ = tracker_.update(fragment_input(sim.particles, sim.scene), sim.scene.fragments);
+  fragments_ = tracker_.update(fragment_input(sim), sim.scene.fragments);
 }
 
 template <int Dim>

@@ -22,8 +22,9 @@ struct View {
 /// What the scene says, or a frame about the body that moves least.
 View choose_view(const Scene& scene);
 
-/// Shown when the scene gives no range for a field: from what the scene knows, the same for all frames.
-std::map<std::string, ColourRange> default_ranges(const Scene& scene, const std::vector<Material>& materials);
+/// Shown when the scene gives no range for a field: from what the run sets out with, the same for all frames.
+std::map<std::string, ColourRange> default_ranges(const Scene& scene, const std::vector<Material>& materials,
+                                                  const Outset& outset);
 
 /// Wall time booked for in-situ work [s].
 double insitu_seconds(const StageTimers& timers);
@@ -40,6 +41,8 @@ class Frames final : public Observer<Dim> {
   /// Fragments as of the last frame; nothing if the scene does not ask for them.
   const std::optional<FragmentTable>& fragments() const { return fragments_; }
   const std::vector<std::string>& warnings() const { return warnings_; }
+  /// One line for the log and the monitor page.
+  void warn(std::string text);
   int images() const { return images_; }
   int drawn() const { return drawn_; }  ///< frames so far
   /// After a restart: the next frame is the first one later than the checkpoint.
@@ -51,7 +54,6 @@ class Frames final : public Observer<Dim> {
   void draw_with_catalyst(Simulation<Dim>& sim);
   void draw_without_gl(const Simulation<Dim>& sim);
   void paint(const Simulation<Dim>& sim, std::string_view name, const PixelGrid& grid, std::span<const Panel> panels);
-  void warn(std::string text);
   void govern(const Simulation<Dim>& sim);
   void collect_compaction(const Simulation<Dim>& sim);
   void write_compaction_tables(const Simulation<Dim>& sim) const;

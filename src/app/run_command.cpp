@@ -67,6 +67,31 @@ void prepare_folder(const Job& job) {
 }
 
 template <int Dim>
+std::vector<BodySummary> summarise_bodies(const Simulation<Dim>& sim, const Frames<Dim>& frames) {
+  const FragmentContext context = fragment_context(sim);
+  std::vector<BodySummary> bodies(context.bodies.size());
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    bodies[b].name = context.bodies[b];
+    bodies[b].mass = context.body_mass[b];
+  }
+  if (frames.fragments()) {
+    const std::vector<BodyFragments> outcome = fragments_by_body(*frames.fragments(), context);
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      bodies[b].fragments = outcome[b].fragments;
+      bodies[b].largest_fragment_mass_fraction = outcome[b].largest_mass_fraction;
+      bodies[b].dust_mass_fraction = outcome[b].dust_mass_fraction;
+    }
+  }
+  if (sim.scene.output.peaks)
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      const PeakPressures peaks = peak_pressures(sim.particles, static_cast<std::int32_t>(b));
+      bodies[b].pressure_peak_max = peaks.max;
+      bodies[b].pressure_peak_median = peaks.median;
+    }
+  return bodies;
+}
+
+template <int Dim>
 Summary summarise(const Simulation<Dim>& sim, const Frames<Dim>& frames, const fs::path& folder, int exit_code) {
   Summary s;
   const ConservationErrors errors = conservation_errors(sim.initial, totals(sim.particles), sim.external);
@@ -89,10 +114,8 @@ Summary summarise(const Simulation<Dim>& sim, const Frames<Dim>& frames, const f
   getrusage(RUSAGE_SELF, &usage);
   s.peak_rss_mb = static_cast<double>(usage.ru_maxrss) / 1024;
   s.mass_error_rel = errors.mass;
-  s.momentum_error_rel = errors.momentum;
-  const auto pushed = [](const Body& body) { return body.driven; };
-  if (!bounded(sim.scene.boundary) && std::ranges::none_of(sim.scene.bodies, pushed))
-    s.angular_momentum_error_rel = errors.angular_momentum;
+  if (keeps_momentum(sim.scene.boundary)) s.momentum_error_rel = errors.momentum;
+  if (keeps_angular_momentum(sim.scene.boundary)) s.angular_momentum_error_rel = errors.angular_momentum;
   s.energy_error_rel = errors.energy;
   if (sim.scene.numerics.scheme == SchemeKind::asph) {
     s.shape_votes = sim.shape_report.votes;
@@ -104,11 +127,12 @@ Summary summarise(const Simulation<Dim>& sim, const Frames<Dim>& frames, const f
   s.insitu_share = s.wall_s > 0 ? insitu / s.wall_s : 0;
   s.insitu_bytes_written = folder_bytes(folder / "images");
   s.full_dump_bytes_avoided = static_cast<std::int64_t>(Checkpoints<Dim>::dump_bytes(sim) * frames.drawn());
+  s.bodies = summarise_bodies(sim, frames);
   if (frames.fragments()) {
-    const auto& pieces = frames.fragments()->fragments;
-    s.fragments = static_cast<std::int64_t>(pieces.size());
-    s.largest_fragment_mass_fraction =
-        pieces.empty() ? 0 : pieces.front().carried.mass / fragment_context(sim).target_mass;
+    const std::size_t target = target_body(sim.scene, sim.outset.bodies);
+    s.fragment_target = s.bodies[target].name;
+    s.fragments = static_cast<std::int64_t>(frames.fragments()->fragments.size());
+    s.largest_fragment_mass_fraction = s.bodies[target].largest_fragment_mass_fraction;
   }
   s.exit = exit_code;
   return s;
@@ -121,10 +145,10 @@ void conclude(Simulation<Dim>& sim, const Frames<Dim>& frames, const Job& job, i
     const FragmentContext context = fragment_context(sim);
     write_fragments(job.folder / "fragments.csv", *frames.fragments(), context);
     write_fragment_distribution(job.folder / "fragment_distribution.csv", *frames.fragments(), context);
-    for (const FragmentSensitivity& s :
-         fragment_sensitivity(fragment_input(sim.particles, sim.scene), sim.scene.fragments))
-      spdlog::info("fragments at linking length {:.2f}: {}, largest {:.2f} %, dust {:.1f} % of all mass",
-                   s.linking_length, s.fragments, 100 * s.largest_mass_fraction, 100 * s.dust_mass_fraction);
+    for (const FragmentSensitivity& s : fragment_sensitivity(fragment_input(sim), sim.scene.fragments))
+      spdlog::info("fragments at linking length {:.2f}: {}, largest {:.2f} %, dust {:.1f} % of the {}",
+                   s.linking_length, s.fragments, 100 * s.largest_mass_fraction, 100 * s.dust_mass_fraction,
+                   context.unit());
   }
   if (sim.unconverged > 0)
     spdlog::warn("the distension solver {} failed to converge in {} particle-steps",
@@ -139,7 +163,9 @@ void conclude(Simulation<Dim>& sim, const Frames<Dim>& frames, const Job& job, i
   }
   FigureSettings figures;
   figures.title = sim.scene.title;
-  figures.resolution_limit = sim.scene.fragments.min_particles * sim.particles.column(Field::mass)[0];
+  const FragmentContext about = fragment_context(sim);
+  figures.fragment_target = about.bodies[about.target];
+  figures.resolution_limit = about.smallest;
   for (const Figure& figure : make_figures(job.folder, figures))
     if (!figure.problem.empty()) spdlog::warn("{}: {}", figure.file.filename().string(), figure.problem);
   if (frames.images() > 0)

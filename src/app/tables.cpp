@@ -12,6 +12,7 @@ namespace ejecta {
 
 namespace {
 constexpr double damaged = 0.99;
+constexpr double worrying_angular_drift = 1e-3;
 constexpr std::chrono::seconds between_lines{5};
 
 std::string hours(double seconds) {
@@ -25,11 +26,12 @@ template <int Dim>
 FragmentContext fragment_context(const Simulation<Dim>& sim) {
   FragmentContext context;
   context.dimension = Dim;
-  // The target is the body of largest mass.
-  std::vector<double> mass(sim.scene.bodies.size(), 0);
-  for (std::size_t i = 0; i < sim.particles.size(); ++i)
-    mass[static_cast<std::size_t>(sim.particles.label(Label::body)[i])] += sim.particles.column(Field::mass)[i];
-  context.target_mass = *std::max_element(mass.begin(), mass.end());
+  context.target = target_body(sim.scene, sim.outset.bodies);
+  for (const BodyAtOutset& body : sim.outset.bodies) context.body_mass.push_back(body.mass);
+  const auto label = sim.particles.label(Label::body);
+  const auto first = std::ranges::find(label, static_cast<std::int32_t>(context.target)) - label.begin();
+  context.smallest =
+      sim.scene.fragments.min_particles * sim.particles.column(Field::mass)[static_cast<std::size_t>(first)];
   for (const Body& b : sim.scene.bodies) context.bodies.push_back(b.name);
   for (const Material& m : sim.materials) context.materials.push_back(m.name);
   return context;
@@ -46,7 +48,13 @@ HistoryRow history_row(const Simulation<Dim>& sim, const std::optional<FragmentT
   row.limited_by = std::string(sim.vote.reason);
   row.kinetic_energy = now.kinetic;
   row.internal_energy = now.internal;
-  row.energy_error = conservation_errors(sim.initial, now, sim.external).energy;
+  const ConservationErrors errors = conservation_errors(sim.initial, now, sim.external);
+  row.energy_error = errors.energy;
+  if (keeps_angular_momentum(sim.scene.boundary)) {
+    const Vec<3>& l = now.angular_momentum;
+    row.angular_momentum = {l[0], l[1], l[2]};
+    row.angular_momentum_error = errors.angular_momentum;
+  }
   if (std::any_of(sim.scene.bodies.begin(), sim.scene.bodies.end(), [](const Body& b) { return b.driven; }))
     row.external_work = sim.external.work;
   row.momentum = {now.momentum[0], now.momentum[1], now.momentum[2]};
@@ -67,23 +75,22 @@ HistoryRow history_row(const Simulation<Dim>& sim, const std::optional<FragmentT
         now.mass;
   if (fragments) {
     row.fragments = static_cast<std::int64_t>(fragments->fragments.size());
-    row.largest_fragment_mass_fraction =
-        fragments->fragments.empty() ? 0
-                                     : fragments->fragments.front().carried.mass / fragment_context(sim).target_mass;
+    const FragmentContext context = fragment_context(sim);
+    row.fragment_target = context.bodies[context.target];
+    row.largest_fragment_mass_fraction = context.share(fragments->largest_mass(context.target));
   }
   return row;
 }
 
 template <int Dim>
-Tables<Dim>::Tables(const Simulation<Dim>& sim, const std::filesystem::path& folder, const Frames<Dim>& frames,
+Tables<Dim>::Tables(const Simulation<Dim>& sim, const std::filesystem::path& folder, Frames<Dim>& frames,
                     std::optional<double> resume_at)
     : interval_(is_set(sim.scene.output.history_interval) ? sim.scene.output.history_interval
                                                           : sim.scene.time_end / 200),
       frames_(frames),
-      history_(folder / "history.csv", Dim, resume_at),
-      context_(fragment_context(sim)) {
+      history_(folder / "history.csv", Dim, resume_at) {
   while (resume_at && next_ <= *resume_at) next_ += interval_;
-  if (sim.scene.fragments.enabled) largest_.emplace(folder / "largest_fragment.csv", resume_at);
+  if (sim.scene.fragments.enabled) largest_.emplace(folder / "largest_fragment.csv", fragment_context(sim), resume_at);
 }
 
 template <int Dim>
@@ -91,8 +98,13 @@ void Tables<Dim>::observe(Simulation<Dim>& sim, bool last) {
   if (sim.clock.time < next_ && !last) return;
   while (next_ <= sim.clock.time) next_ += interval_;
   sim.timers.time("tables", [&] {
-    history_.write(history_row(sim, frames_.fragments()));
-    if (largest_ && frames_.fragments()) largest_->write(sim.clock.time, *frames_.fragments(), context_);
+    const HistoryRow row = history_row(sim, frames_.fragments());
+    history_.write(row);
+    if (largest_ && frames_.fragments()) largest_->write(sim.clock.time, *frames_.fragments());
+    if (warned_ || !(row.angular_momentum_error > worrying_angular_drift)) return;
+    warned_ = true;
+    frames_.warn(fmt::format("angular momentum has drifted by {:.2g} of the sum of |x - x_c| |m v| (from {:.0e} on)",
+                             *row.angular_momentum_error, worrying_angular_drift));
   });
 }
 

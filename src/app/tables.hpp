@@ -21,7 +21,7 @@ FragmentContext fragment_context(const Simulation<Dim>& sim);
 template <int Dim>
 class Tables final : public Observer<Dim> {
  public:
-  Tables(const Simulation<Dim>& sim, const std::filesystem::path& folder, const Frames<Dim>& frames,
+  Tables(const Simulation<Dim>& sim, const std::filesystem::path& folder, Frames<Dim>& frames,
          std::optional<double> resume_at);
   double next_time() const override { return std::numeric_limits<double>::infinity(); }
   void observe(Simulation<Dim>& sim, bool last) override;
@@ -29,10 +29,10 @@ class Tables final : public Observer<Dim> {
  private:
   double interval_;
   double next_ = 0;
-  const Frames<Dim>& frames_;
+  Frames<Dim>& frames_;
   History history_;
   std::optional<LargestFragmentHistory> largest_;
-  FragmentContext context_;
+  bool warned_ = false;  ///< that angular momentum drifts
 };
 
 /// One line every few seconds: time, step and what limits it, speed, energy error, time to go.

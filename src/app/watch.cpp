@@ -9,14 +9,14 @@ Watch<Dim>::Watch(const Simulation<Dim>& sim, std::filesystem::path folder, cons
     : folder_(std::move(folder)),
       frames_(frames),
       monitor_(folder_),
-      target_mass_(fragment_context(sim).target_mass),
+      context_(fragment_context(sim)),
       first_time_(sim.clock.time),
       first_wall_(sim.wall_seconds) {
   status_.scene = sim.scene.title.empty() ? sim.scene.name : sim.scene.title;
   status_.time_end = sim.scene.time_end;
   status_.particles = static_cast<std::int64_t>(sim.particles.size());
-  if (sim.scene.fragments.enabled)
-    status_.smallest_fragment = sim.scene.fragments.min_particles * sim.particles.column(Field::mass)[0] / target_mass_;
+  if (sim.scene.fragments.enabled) status_.smallest_fragment = context_.share(context_.smallest);
+  status_.fragment_target = context_.bodies[context_.target];
 }
 
 template <int Dim>
@@ -35,7 +35,9 @@ void Watch<Dim>::gather(const Simulation<Dim>& sim) {
   status_.energy_error = row.energy_error;
   status_.record("kinetic energy", "J", row.time, row.kinetic_energy);
   status_.record("internal energy", "J", row.time, row.internal_energy);
+  status_.angular_momentum_error = row.angular_momentum_error;
   status_.record("energy error", "1", row.time, row.energy_error);
+  if (row.angular_momentum_error) status_.record("angular momentum error", "1", row.time, *row.angular_momentum_error);
   status_.record("max pressure", "Pa", row.time, row.max_pressure);
   if (row.damaged_mass_fraction) status_.record("damaged mass fraction", "1", row.time, *row.damaged_mass_fraction);
   if (row.largest_fragment_mass_fraction)
@@ -43,7 +45,7 @@ void Watch<Dim>::gather(const Simulation<Dim>& sim) {
   status_.fragment_masses.clear();
   if (frames_.fragments())
     for (const Fragment& f : frames_.fragments()->fragments)
-      status_.fragment_masses.push_back(f.carried.mass / target_mass_);
+      if (const double m = f.mass_of(context_.target); m > 0) status_.fragment_masses.push_back(context_.share(m));
   status_.views = read_views(folder_);
   status_.warnings = frames_.warnings();
 }

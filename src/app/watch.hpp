@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "app/frames.hpp"
+#include "output/fragment_files.hpp"
 #include "output/monitor.hpp"
 #include "simulation/simulation.hpp"
 
@@ -24,7 +25,8 @@ class Watch final : public Observer<Dim> {
   const Frames<Dim>& frames_;
   Monitor monitor_;
   MonitorStatus status_;
-  double target_mass_, first_time_, first_wall_;
+  FragmentContext context_;
+  double first_time_, first_wall_;
 };
 
 }  // namespace ejecta

@@ -102,7 +102,7 @@ std::string frame_json(const PipelineSettings& s, std::span<const Channel> chann
       << ",\"particle_radius\":" << number(s.particle_radius)
       << ",\"radius_per_smoothing_length\":" << number(s.radius_per_smoothing_length)
       << ",\"nodes_per_h\":" << number(s.nodes_per_h) << ",\"kernel_support\":" << number(s.kernel_support)
-      << ",\"ranges\":{";
+      << ",\"fragment_target\":" << json_string(s.fragment_target) << ",\"ranges\":{";
   const char* separator = "";
   for (const auto& [field, range] : s.ranges) {
     out << separator << json_string(field) << ":[" << number(range.min) << ',' << number(range.max) << ']';

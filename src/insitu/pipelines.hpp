@@ -24,6 +24,7 @@ struct PipelineSettings {
   double radius_per_smoothing_length = 0.45;  ///< of a drawn sphere
   double nodes_per_h = 1.3;                   ///< node spacings per smoothing length
   double kernel_support = 2;                  ///< of the kernel, in smoothing lengths
+  std::string fragment_target = "target";     ///< body that fragments are counted of
   std::map<std::string, ColourRange> ranges;  ///< field -> fixed colour range [SI]
 };
 

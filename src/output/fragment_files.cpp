@@ -11,10 +11,16 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-double share(double mass, const FragmentContext& context) { return mass / context.target_mass; }
+double mass_of(const std::vector<double>& by_body, std::size_t body) {
+  return body < by_body.size() ? by_body[body] : 0.0;
+}
 
-const std::vector<CsvColumn> largest_columns{
-    {"time", "s"}, {"largest fragment mass fraction", "1"}, {"fragments", "1"}, {"dust mass fraction", "1"}};
+std::vector<CsvColumn> largest_columns(const FragmentContext& context) {
+  return {{"time", "s"},
+          {"largest fragment mass fraction", context.unit()},
+          {"fragments", "1"},
+          {"dust mass fraction", context.unit()}};
+}
 
 CsvWriter open(std::filesystem::path file, std::span<const CsvColumn> columns, std::optional<double> resume_at) {
   return resume_at ? CsvWriter(std::move(file), columns, *resume_at) : CsvWriter(std::move(file), columns);
@@ -30,7 +36,7 @@ void add_labels(std::vector<CsvCell>& row, const std::vector<double>& by_label, 
 
 void write_fragments(const std::filesystem::path& file, const FragmentTable& table, const FragmentContext& context) {
   const std::string kg = context.dimension == 2 ? "kg/m" : "kg";
-  std::vector<CsvColumn> columns{{"number", "1"}, {"particles", "1"}, {"mass", kg}, {"mass fraction", "1"}};
+  std::vector<CsvColumn> columns{{"number", "1"}, {"particles", "1"}, {"mass", kg}, {"mass fraction", context.unit()}};
   for (const std::string& body : context.bodies) columns.push_back({"mass of " + body, kg});
   for (const std::string& material : context.materials) columns.push_back({"mass of material " + material, kg});
   for (const auto& [name, unit] : {std::pair{"centre", "m"}, {"velocity", "m/s"}, {"spin", "rad/s"}})
@@ -41,7 +47,7 @@ void write_fragments(const std::filesystem::path& file, const FragmentTable& tab
   CsvWriter writer(file, columns);
   for (const Fragment& f : table.fragments) {
     std::vector<CsvCell> row{std::int64_t{f.number}, static_cast<std::int64_t>(f.carried.particles), f.carried.mass,
-                             share(f.carried.mass, context)};
+                             context.share(f.mass_of(context.target))};
     add_labels(row, f.mass_by_body, context.bodies.size());
     add_labels(row, f.mass_by_material, context.materials.size());
     for (const Vec<3>* v : {&f.centre, &f.velocity, &f.spin, &f.semi_axes}) add_vector(row, *v);
@@ -52,7 +58,8 @@ void write_fragments(const std::filesystem::path& file, const FragmentTable& tab
   dust[0] = std::int64_t{0};
   dust[1] = static_cast<std::int64_t>(table.dust.particles);
   dust[2] = table.dust.mass;
-  dust[3] = share(table.dust.mass, context);
+  dust[3] = context.share(mass_of(table.dust_mass_by_body, context.target));
+  for (std::size_t b = 0; b < context.bodies.size(); ++b) dust[4 + b] = mass_of(table.dust_mass_by_body, b);
   const std::size_t velocity = 4 + context.bodies.size() + context.materials.size() + 3;
   if (table.dust.mass > 0)
     for (int a = 0; a < 3; ++a) dust[velocity + static_cast<std::size_t>(a)] = table.dust.momentum[a] / table.dust.mass;
@@ -62,26 +69,37 @@ void write_fragments(const std::filesystem::path& file, const FragmentTable& tab
 void write_fragment_distribution(const std::filesystem::path& file, const FragmentTable& table,
                                  const FragmentContext& context) {
   std::vector<double> mass;
-  for (const Fragment& f : table.fragments) mass.push_back(f.carried.mass);
+  for (const Fragment& f : table.fragments)
+    if (const double m = f.mass_of(context.target); m > 0) mass.push_back(m);
   std::sort(mass.begin(), mass.end(), std::greater<>());
   std::vector<std::vector<CsvCell>> rows;
   for (std::size_t k = 0; k < mass.size(); ++k)
     if (k + 1 == mass.size() || mass[k + 1] < mass[k])  // equal masses share the row that counts them all
-      rows.push_back({mass[k], share(mass[k], context), static_cast<std::int64_t>(k + 1)});
+      rows.push_back({mass[k], context.share(mass[k]), static_cast<std::int64_t>(k + 1)});
   write_csv(file,
             std::vector<CsvColumn>{{"mass", context.dimension == 2 ? "kg/m" : "kg"},
-                                   {"mass fraction", "1"},
+                                   {"mass fraction", context.unit()},
                                    {"fragments at least as heavy", "1"}},
             rows);
 }
 
-LargestFragmentHistory::LargestFragmentHistory(std::filesystem::path file, std::optional<double> resume_at)
-    : writer_(open(std::move(file), largest_columns, resume_at)) {}
+LargestFragmentHistory::LargestFragmentHistory(std::filesystem::path file, FragmentContext context,
+                                               std::optional<double> resume_at)
+    : context_(std::move(context)), writer_(open(std::move(file), largest_columns(context_), resume_at)) {}
 
-void LargestFragmentHistory::write(double time, const FragmentTable& table, const FragmentContext& context) {
-  const double largest = table.fragments.empty() ? 0 : table.fragments[0].carried.mass;
-  writer_.row(std::vector<CsvCell>{time, share(largest, context), static_cast<std::int64_t>(table.fragments.size()),
-                                   share(table.dust.mass, context)});
+void LargestFragmentHistory::write(double time, const FragmentTable& table) {
+  writer_.row(std::vector<CsvCell>{time, context_.share(table.largest_mass(context_.target)),
+                                   static_cast<std::int64_t>(table.fragments.size()),
+                                   context_.share(mass_of(table.dust_mass_by_body, context_.target))});
+}
+
+std::vector<BodyFragments> fragments_by_body(const FragmentTable& table, const FragmentContext& context) {
+  std::vector<BodyFragments> result;
+  for (std::size_t b = 0; b < context.bodies.size(); ++b)
+    result.push_back({context.bodies[b], context.body_mass[b],
+                      std::ranges::count_if(table.fragments, [&](const Fragment& f) { return f.mass_of(b) > 0; }),
+                      context.share(table.largest_mass(b), b), context.share(mass_of(table.dust_mass_by_body, b), b)});
+  return result;
 }
 
 void write_compaction(const std::filesystem::path& file, std::span<const double> pressure,

@@ -13,25 +13,46 @@ namespace ejecta {
 /// What the tables are told about the run.
 struct FragmentContext {
   int dimension = 3;
-  double target_mass = 0;                      ///< kg (kg/m in plane strain); mass fractions refer to it
   std::vector<std::string> bodies, materials;  ///< names by label
+  std::vector<double> body_mass;               ///< kg (kg/m in plane strain), by label
+  std::size_t target = 0;                      ///< label of the body that mass fractions refer to
+  double smallest = 0;                         ///< lightest fragment of the target that is counted [kg, kg/m]
+
+  /// Share of one body's mass that a mass [kg] of its matter is.
+  double share(double mass, std::size_t body) const { return mass / body_mass[body]; }
+  double share(double mass) const { return share(mass, target); }
+  /// What mass fractions are measured in: the bracket behind their names.
+  std::string unit() const { return "mass of " + bodies[target]; }
 };
 
-/// fragments.csv: one row a fragment, heaviest first, then a row with number 0 for the dust (mass and velocity only).
+/// Outcome for one body; fractions count its own matter over its own mass, wherever it is.
+struct BodyFragments {
+  std::string body;
+  double mass = 0;                                           ///< kg (kg/m in plane strain)
+  std::int64_t fragments = 0;                                ///< with matter of it
+  double largest_mass_fraction = 0, dust_mass_fraction = 0;  ///< 1
+};
+std::vector<BodyFragments> fragments_by_body(const FragmentTable& table, const FragmentContext& context);
+
+/// fragments.csv: one row a fragment, those with most of the target's matter first, then a row with number 0 for the
+/// dust, which is everything else (mass and velocity only). "mass fraction" counts matter of the target only.
 /// Throws InputError if it cannot be written; so do the functions below.
 void write_fragments(const std::filesystem::path& file, const FragmentTable& table, const FragmentContext& context);
 
-/// fragment_distribution.csv: mass m, m / target mass, number of fragments at least as heavy as m; heaviest first.
+/// fragment_distribution.csv: mass m of the target's matter in a fragment, m / mass of the target, number of fragments
+/// that hold at least as much; heaviest first. Fragments of other bodies are left out.
 void write_fragment_distribution(const std::filesystem::path& file, const FragmentTable& table,
                                  const FragmentContext& context);
 
-/// largest_fragment.csv, one row a call: time, mass fraction of the largest fragment, fragments, dust fraction.
+/// largest_fragment.csv, one row a call: time, largest fragment of the target, fragments of all bodies, dust of the
+/// target; both masses over that of the target.
 class LargestFragmentHistory {
  public:
-  LargestFragmentHistory(std::filesystem::path file, std::optional<double> resume_at = {});
-  void write(double time, const FragmentTable& table, const FragmentContext& context);
+  LargestFragmentHistory(std::filesystem::path file, FragmentContext context, std::optional<double> resume_at = {});
+  void write(double time, const FragmentTable& table);
 
  private:
+  FragmentContext context_;
   CsvWriter writer_;
 };
 

@@ -38,13 +38,20 @@ Table table_of(const HistoryRow& r, int dimension) {
   t.add("momentum x", momentum, r.momentum[0]);
   t.add("momentum y", momentum, r.momentum[1]);
   if (dimension == 3) t.add("momentum z", momentum, r.momentum[2]);
+  const std::string angular = dimension == 2 ? "kg m/s" : "kg m^2/s";
+  if (r.angular_momentum) {
+    if (dimension == 3) t.add("angular momentum x", angular, (*r.angular_momentum)[0]);
+    if (dimension == 3) t.add("angular momentum y", angular, (*r.angular_momentum)[1]);
+    t.add("angular momentum z", angular, (*r.angular_momentum)[2]);
+  }
+  t.add_if("angular momentum error", "1", r.angular_momentum_error);
   t.add("mass", "kg" + per, r.mass);
   t.add("max pressure", "Pa", r.max_pressure);
   t.add("min density", "kg/m^3", r.min_density);
   t.add("max density", "kg/m^3", r.max_density);
   t.add_if("min distension", "1", r.min_distension);
   t.add_if("damaged mass fraction", "1", r.damaged_mass_fraction);
-  t.add_if("largest fragment mass fraction", "1", r.largest_fragment_mass_fraction);
+  t.add_if("largest fragment mass fraction", "mass of " + r.fragment_target, r.largest_fragment_mass_fraction);
   t.add_if("fragments", "1", r.fragments);
   return t;
 }

@@ -16,19 +16,23 @@ namespace ejecta {
 struct HistoryRow {
   double time = 0;  ///< s
   std::int64_t step = 0;
-  double dt = 0;                                         ///< s
-  std::string limited_by;                                ///< winning vote of the time step
-  double kinetic_energy = 0, internal_energy = 0;        ///< J (J/m in plane strain)
-  std::optional<double> external_work;                   ///< J (J/m in plane strain), on driven bodies
-  double energy_error = 0;                               ///< (total - initial total - external work) / initial total, 1
-  std::array<double, 3> momentum{0, 0, 0};               ///< kg m/s
-  double mass = 0;                                       ///< kg
-  double max_pressure = 0;                               ///< Pa
-  double min_density = 0, max_density = 0;               ///< kg/m^3
-  std::optional<double> min_distension;                  ///< 1; porous materials
-  std::optional<double> damaged_mass_fraction;           ///< 1; materials with damage
-  std::optional<double> largest_fragment_mass_fraction;  ///< 1; where fragments are looked for
-  std::optional<std::int64_t> fragments;
+  double dt = 0;                                   ///< s
+  std::string limited_by;                          ///< winning vote of the time step
+  double kinetic_energy = 0, internal_energy = 0;  ///< J (J/m in plane strain)
+  std::optional<double> external_work;             ///< J (J/m in plane strain), on driven bodies
+  double energy_error = 0;                         ///< (total - initial total - external work) / initial total, 1
+  std::array<double, 3> momentum{0, 0, 0};         ///< kg m/s
+  std::optional<std::array<double, 3>> angular_momentum;  ///< kg m^2/s, about the origin; not between faces
+  std::optional<double> angular_momentum_error;           ///< change less external torque over sum |x - x_c| |m v|, 1
+  double mass = 0;                                        ///< kg
+  double max_pressure = 0;                                ///< Pa
+  double min_density = 0, max_density = 0;                ///< kg/m^3
+  std::optional<double> min_distension;                   ///< 1; porous materials
+  std::optional<double> damaged_mass_fraction;            ///< 1; materials with damage
+  std::optional<double>
+      largest_fragment_mass_fraction;     ///< of the target over its mass; where fragments are looked for
+  std::string fragment_target;            ///< name of that body
+  std::optional<std::int64_t> fragments;  ///< of all bodies
 };
 
 class History {

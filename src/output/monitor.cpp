@@ -117,9 +117,11 @@ std::string monitor_json(const MonitorStatus& s, std::int64_t updated) {
   add("eta_s", to_json(s.eta_s));
   add("wall_s", to_json(s.wall_s));
   add("energy_error_rel", to_json(s.energy_error));
+  add("angular_momentum_error_rel", to_json(s.angular_momentum_error));
   add("warnings", json_list(s.warnings, [](const std::string& w) { return to_json(w); }));
   add("views", json_list(s.views, view_json));
   add("history", json_list(s.history, series_json));
+  add("fragment_target", to_json(s.fragment_target));
   add("smallest_fragment", to_json(s.smallest_fragment));
   add("fragments", distribution_json(s.fragment_masses));
   return text + "\n}\n";

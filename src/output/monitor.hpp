@@ -39,13 +39,15 @@ struct MonitorStatus {
   std::string limited_by;                 ///< winning vote of the time step
   std::int64_t particles = 0;
   std::optional<double> particle_steps_per_s;
-  std::optional<double> eta_s;              ///< wall time still needed
-  double wall_s = 0;                        ///< wall time used
-  std::optional<double> energy_error;       ///< relative, 1
-  std::vector<MonitorView> views;           ///< see read_views()
-  std::vector<MonitorSeries> history;       ///< whole runs are welcome: the page gets at most 300 points of each
-  std::vector<double> fragment_masses;      ///< m / target mass, heaviest first, without the dust
-  std::optional<double> smallest_fragment;  ///< m / target mass of the lightest fragment that is counted
+  std::optional<double> eta_s;                   ///< wall time still needed
+  double wall_s = 0;                             ///< wall time used
+  std::optional<double> energy_error;            ///< relative, 1
+  std::optional<double> angular_momentum_error;  ///< relative, 1
+  std::vector<MonitorView> views;                ///< see read_views()
+  std::vector<MonitorSeries> history;            ///< whole runs are welcome: the page gets at most 300 points of each
+  std::string fragment_target;                   ///< name of the body that the next two refer to
+  std::vector<double> fragment_masses;      ///< its matter in a fragment / its mass, heaviest first, without the dust
+  std::optional<double> smallest_fragment;  ///< the same of the lightest fragment that is counted
   std::vector<std::string> warnings;
 
   /// Adds a point [s, SI] to the series of that name, which is made if there is none.

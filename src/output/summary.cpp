@@ -7,11 +7,28 @@
 
 namespace ejecta {
 
+namespace {
+
+std::string bodies_json(const std::vector<BodySummary>& bodies) {
+  std::string text;
+  for (const BodySummary& b : bodies) {
+    text += fmt::format("{}    {}: {{\"mass\": {}, \"fragments\": {}, \"largest_fragment_mass_fraction\": {}, ",
+                        text.empty() ? "\n" : ",\n", to_json(b.name), to_json(b.mass), to_json(b.fragments),
+                        to_json(b.largest_fragment_mass_fraction));
+    text += fmt::format("\"dust_mass_fraction\": {}, \"pressure_peak_max\": {}, \"pressure_peak_median\": {}}}",
+                        to_json(b.dust_mass_fraction), to_json(b.pressure_peak_max), to_json(b.pressure_peak_median));
+  }
+  return text.empty() ? "{}" : "{" + text + "\n  }";
+}
+
+}  // namespace
+
 std::string summary_json(const Summary& s) {
   std::string text;
-  const auto add = [&](const char* key, const auto& value) {
-    text += fmt::format("{}  \"{}\": {}", text.empty() ? "{\n" : ",\n", key, to_json(value));
+  const auto add_text = [&](const char* key, const std::string& json) {
+    text += fmt::format("{}  \"{}\": {}", text.empty() ? "{\n" : ",\n", key, json);
   };
+  const auto add = [&](const char* key, const auto& value) { add_text(key, to_json(value)); };
   add("scene", s.scene);
   add("dimension", s.dimension);
   add("scheme", s.scheme);
@@ -39,8 +56,10 @@ std::string summary_json(const Summary& s) {
   add("insitu_share", s.insitu_share);
   add("insitu_bytes_written", s.insitu_bytes_written);
   add("full_dump_bytes_avoided", s.full_dump_bytes_avoided);
+  add("fragment_target", s.fragment_target);
   add("largest_fragment_mass_fraction", s.largest_fragment_mass_fraction);
   add("fragments", s.fragments);
+  add_text("bodies", bodies_json(s.bodies));
   add("exit", s.exit);
   return text + "\n}\n";
 }

@@ -4,8 +4,19 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace ejecta {
+
+/// What became of one body: its own matter over its own mass, wherever that matter is now.
+struct BodySummary {
+  std::string name;
+  double mass = 0;  ///< kg (kg/m in plane strain)
+  std::optional<std::int64_t> fragments;
+  std::optional<double> largest_fragment_mass_fraction, dust_mass_fraction;
+  std::optional<double> pressure_peak_max,
+      pressure_peak_median;  ///< Pa; half of its mass has seen more than the median
+};
 
 /// Values that do not apply stay empty and are written as null, like numbers that are not finite.
 struct Summary {
@@ -19,16 +30,19 @@ struct Summary {
   double time_s = 0, wall_s = 0;
   std::optional<double> particle_steps_per_s, pair_interactions_per_s, neighbours_mean;
   std::optional<double> bytes_per_particle, peak_rss_mb;
-  std::optional<double> mass_error_rel, momentum_error_rel, energy_error_rel;
-  std::optional<double> angular_momentum_error_rel;  ///< not with boundaries or driven bodies, which exert torque
+  std::optional<double> mass_error_rel, energy_error_rel;
+  std::optional<double> momentum_error_rel;          ///< not with reflecting faces, which take momentum away
+  std::optional<double> angular_momentum_error_rel;  ///< not with faces of either kind
   /// ASPH: particles times votes on the shape of H, and in how many of them a limit acted.
   std::optional<std::int64_t> shape_votes, shape_few_neighbours, shape_limited_change, shape_largest_aspect;
   std::optional<std::int64_t> images;
   std::optional<double> insitu_share;
   std::optional<std::int64_t> insitu_bytes_written, full_dump_bytes_avoided;
-  std::optional<double> largest_fragment_mass_fraction;
-  std::optional<std::int64_t> fragments;
-  int exit = 0;  ///< exit code: 0, 2, 3
+  std::optional<std::string> fragment_target;            ///< the body struck, or named by fragments.target
+  std::optional<double> largest_fragment_mass_fraction;  ///< of the target, over its mass
+  std::optional<std::int64_t> fragments;                 ///< of all bodies
+  std::vector<BodySummary> bodies;                       ///< an object by name
+  int exit = 0;                                          ///< exit code: 0, 2, 3
 };
 
 /// One JSON object, one key a line, in the order of the members.

@@ -49,6 +49,11 @@ const std::array<FieldInfo, field_count>& field_catalogue() {
       {Field::flaw_exponent, "flaw_exponent", scalar, "1", constant,
        "growth of active flaws: n = (strain/weakest)^exponent"},
       {Field::flaw_count, "flaw_count", scalar, "1", constant, "number of flaws"},
+      {Field::pressure_peak, "pressure_peak", scalar, "Pa", state, "highest pressure so far"},
+      {Field::specific_energy_peak, "specific_energy_peak", scalar, "J/kg", state,
+       "highest specific internal energy so far"},
+      {Field::density_low, "density_low", scalar, "kg/m^3", state, "lowest bulk density so far"},
+      {Field::initial_position, "initial_position", vector, "m", constant, "position at the start"},
   }};
   return catalogue;
 }

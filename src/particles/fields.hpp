@@ -44,6 +44,10 @@ enum class Field {
   flaw_strain,
   flaw_exponent,
   flaw_count,
+  pressure_peak,
+  specific_energy_peak,
+  density_low,
+  initial_position,
   count
 };
 inline constexpr int field_count = static_cast<int>(Field::count);

@@ -148,6 +148,9 @@ void check_scene(const Scene& scene, const Document& document, Problems& problem
       problems.add(origin, "materials." + name, "no body is made of it");
     }
   check_boundary(scene, report);
+  if (const std::string& target = scene.fragments.target; !target.empty() && !names.contains(target))
+    report("fragments.target",
+           fmt::format("expected the name of a body ({}), got \"{}\"", fmt::join(names, ", "), target));
 }
 
 }  // namespace ejecta

@@ -99,6 +99,9 @@ void describe(Describer& d, FragmentSettings& f) {
   d.number("damage_threshold", f.damage_threshold, "1", at_least(0),
            "particles damaged beyond this are dust; above 1 damage cuts no links");
   d.integer("min_particles", f.min_particles, at_least(1), "smaller groups are dust");
+  d.text("target", f.target,
+         "name of the body whose pieces and mass all fragment figures refer to; else the heaviest body at rest, or the "
+         "slowest about the centre of mass");
 }
 
 void describe(Describer& d, OutputSettings& o) {
@@ -107,6 +110,7 @@ void describe(Describer& d, OutputSettings& o) {
   d.number("checkpoint_interval", o.checkpoint_interval, "s", non_negative,
            "wall time between checkpoints; 0: only at the end");
   d.integer("snapshots", o.snapshots, non_negative, "full dumps, equally spaced in simulated time");
+  d.flag("peaks", o.peaks, "particles remember peak pressure, peak energy, lowest density and where they come from");
 }
 
 void describe(Describer& d, Scene& s) {

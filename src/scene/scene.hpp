@@ -121,12 +121,14 @@ struct FragmentSettings {
       1.4;  ///< spacing: in mean particle sizes (m/rho)^(1/Dim); support: in h / nodes_per_h along each axis
   double damage_threshold = 0.99;  ///< particles damaged beyond this link to nothing (dust)
   int min_particles = 8;           ///< smaller groups count as dust
+  std::string target;              ///< body whose pieces count; empty: the body struck (simulation/outset.hpp)
 };
 
 struct OutputSettings {
   double history_interval = unset;   ///< s of simulated time; default: end/200
   double checkpoint_interval = 600;  ///< s of wall time; 0: only at the end
   int snapshots = 0;                 ///< full HDF5 dumps, equally spaced in time; 0: none
+  bool peaks = false;                ///< particles remember their extremes and where they come from
 };
 
 struct Scene {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 #include "simulation/friends.hpp"
@@ -21,6 +22,14 @@ namespace {
 
 Vec<3> vector_at(const std::array<std::span<const double>, 3>& columns, std::size_t i) {
   return {columns[0][i], columns[1][i], columns[2].empty() ? 0.0 : columns[2][i]};
+}
+
+/// Brings a point back between the periodic faces.
+Vec<3> wrapped(const FragmentInput& in, Vec<3> x) {
+  for (int a = 0; a < 3; ++a)
+    if (const PeriodicAxis& axis = in.box[static_cast<std::size_t>(a)]; axis.length > 0)
+      x[a] -= axis.length * std::floor((x[a] - axis.min) / axis.length);
+  return x;
 }
 
 Carried carried_by(const FragmentInput& in, std::size_t i) {
@@ -61,6 +70,18 @@ void add_shape(Fragment& fragment, const SecondMoments& moments, int dimension) 
 
 }  // namespace
 
+Vec<3> FragmentInput::place(std::size_t i) const { return vector_at(position, i); }
+
+Vec<3> FragmentInput::unwrapped(const Vec<3>& x, const BoxShift& shift) const {
+  return x + shift.cast<double>().cwiseProduct(Vec<3>(box[0].length, box[1].length, box[2].length));
+}
+
+double FragmentTable::largest_mass(std::size_t body) const {
+  double largest = 0;
+  for (const Fragment& f : fragments) largest = std::max(largest, f.mass_of(body));
+  return largest;
+}
+
 Carried& Carried::operator+=(const Carried& other) {
   particles += other.particles;
   mass += other.mass;
@@ -69,61 +90,66 @@ Carried& Carried::operator+=(const Carried& other) {
   return *this;
 }
 
-std::vector<std::int32_t> find_groups(const FragmentInput& in, const FragmentSettings& settings) {
+Groups find_groups(const FragmentInput& in, const FragmentSettings& settings) {
   std::vector<std::uint32_t> members;
   for (std::size_t i = 0; i < in.size(); ++i)
-    if ((in.damage.empty() || in.damage[i] < settings.damage_threshold) && std::isnormal(in.particle_size(i)))
+    if ((in.damage.empty() || in.damage[i] < settings.damage_threshold) && in.piece(i) >= 0 &&
+        std::isnormal(in.particle_size(i)))
       members.push_back(static_cast<std::uint32_t>(i));
-  const std::vector<std::uint32_t> lowest_friend = join_friends(in, members, settings);
+  Friends friends = join_friends(in, members, settings);
 
   struct Group {
-    std::uint32_t root;
-    std::size_t particles;
-    double mass;
-    std::int32_t lowest_id;
+    std::size_t particles = 0;
+    double target_mass = 0, mass = 0;
+    std::int32_t lowest_id = 0;
   };
   std::vector<Group> groups;
   std::vector<std::int32_t> group_of(in.size(), -1);  // by root, then by particle
   for (const std::uint32_t i : members) {
-    const std::uint32_t root = lowest_friend[i];  // the root is the lowest member, so it is met first
+    const std::uint32_t root = friends.root[i];  // the root is the lowest member, so it is met first
     if (root == i) {
       group_of[i] = static_cast<std::int32_t>(groups.size());
-      groups.push_back({i, 0, 0.0, in.id[i]});
+      groups.push_back({.lowest_id = in.id[i]});
     }
     group_of[i] = group_of[root];
     Group& group = groups[static_cast<std::size_t>(group_of[i])];
     ++group.particles;
     group.mass += in.mass[i];
+    if (in.body[i] == in.target) group.target_mass += in.mass[i];
     group.lowest_id = std::min(group.lowest_id, in.id[i]);
   }
   std::vector<std::size_t> order(groups.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return groups[a].mass != groups[b].mass ? groups[a].mass > groups[b].mass
-                                            : groups[a].lowest_id < groups[b].lowest_id;
+    const auto key = [&](std::size_t g) {
+      return std::tuple(-groups[g].target_mass, -groups[g].mass, groups[g].lowest_id);
+    };
+    return key(a) < key(b);
   });
   std::vector<std::int32_t> rank(groups.size(), 0);
   std::int32_t next = 0;
   for (const std::size_t g : order)
     if (groups[g].particles >= static_cast<std::size_t>(std::max(1, settings.min_particles))) rank[g] = ++next;
   for (std::int32_t& g : group_of) g = g < 0 ? 0 : rank[static_cast<std::size_t>(g)];
-  return group_of;
+  return {std::move(group_of), std::move(friends.shift)};
 }
 
-FragmentTable describe_groups(const FragmentInput& in, std::vector<std::int32_t> number) {
+FragmentTable describe_groups(const FragmentInput& in, Groups found) {
   FragmentTable table;
+  std::vector<std::int32_t>& number = found.number;
   const std::int32_t groups = number.empty() ? 0 : *std::max_element(number.begin(), number.end());
   table.fragments.resize(static_cast<std::size_t>(groups));
   std::vector<Vec<3>> mass_moment(table.fragments.size(), Vec<3>::Zero());
   for (std::size_t i = 0; i < in.size(); ++i) {
     if (number[i] == 0) {
       table.dust += carried_by(in, i);
+      add_mass(table.dust_mass_by_body, in.body[i], in.mass[i]);
       continue;
     }
     const std::size_t g = static_cast<std::size_t>(number[i] - 1);
     Fragment& fragment = table.fragments[g];
     fragment.carried += carried_by(in, i);
-    mass_moment[g] += in.mass[i] * vector_at(in.position, i);
+    mass_moment[g] += in.mass[i] * in.unwrapped(in.place(i), found.shift[i]);
     add_mass(fragment.mass_by_body, in.body[i], in.mass[i]);
     add_mass(fragment.mass_by_material, in.material[i], in.mass[i]);
     fragment.mean_damage += in.damage.empty() ? 0 : in.mass[i] * in.damage[i];
@@ -143,14 +169,17 @@ FragmentTable describe_groups(const FragmentInput& in, std::vector<std::int32_t>
   for (std::size_t i = 0; i < in.size(); ++i) {
     if (number[i] == 0) continue;
     const std::size_t g = static_cast<std::size_t>(number[i] - 1);
-    const Vec<3> r = vector_at(in.position, i) - table.fragments[g].centre;
+    const Vec<3> r = in.unwrapped(in.place(i), found.shift[i]) - table.fragments[g].centre;
     const Vec<3> v = vector_at(in.velocity, i) - table.fragments[g].velocity;
     const double d = in.particle_size(i);
     moments[g].points += in.mass[i] * r * r.transpose();
     moments[g].inner += in.mass[i] * d * d / 12;
     moments[g].angular_momentum += in.mass[i] * r.cross(v);
   }
-  for (std::size_t g = 0; g < moments.size(); ++g) add_shape(table.fragments[g], moments[g], in.dimension());
+  for (std::size_t g = 0; g < moments.size(); ++g) {
+    add_shape(table.fragments[g], moments[g], in.dimension());
+    table.fragments[g].centre = wrapped(in, table.fragments[g].centre);
+  }
   table.number = std::move(number);
   return table;
 }
@@ -200,15 +229,18 @@ void FragmentTracker::restore(std::span<const std::int32_t> id, std::span<const 
 }
 
 std::array<FragmentSensitivity, 3> fragment_sensitivity(const FragmentInput& in, const FragmentSettings& settings) {
-  const double total = std::accumulate(in.mass.begin(), in.mass.end(), 0.0);
+  const std::size_t target = static_cast<std::size_t>(in.target);
+  double target_mass = 0;
+  for (std::size_t i = 0; i < in.size(); ++i)
+    if (in.body[i] == in.target) target_mass += in.mass[i];
   std::array<FragmentSensitivity, 3> result{};
   const std::array<double, 3> factors{0.8, 1.0, 1.25};
   for (std::size_t k = 0; k < factors.size(); ++k) {
     FragmentSettings changed = settings;
     changed.linking_length *= factors[k];
     const FragmentTable table = describe_groups(in, find_groups(in, changed));
-    result[k] = {changed.linking_length, table.fragments.size(),
-                 table.fragments.empty() ? 0 : table.fragments[0].carried.mass / total, table.dust.mass / total};
+    result[k] = {changed.linking_length, table.fragments.size(), table.largest_mass(target) / target_mass,
+                 target < table.dust_mass_by_body.size() ? table.dust_mass_by_body[target] / target_mass : 0.0};
   }
   return result;
 }

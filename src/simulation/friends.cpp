@@ -13,21 +13,41 @@ namespace ejecta {
 
 namespace {
 
+/// Sets of particles, each with its shift by box lengths relative to the root of its set.
 class DisjointSets {
  public:
-  explicit DisjointSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
-  std::uint32_t root(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
+  explicit DisjointSets(std::size_t n) : parent_(n), shift_(n, BoxShift::Zero()) {
+    std::iota(parent_.begin(), parent_.end(), 0u);
   }
-  /// The lower index becomes the root, so the result does not depend on the order of the calls.
-  void join(std::uint32_t i, std::uint32_t j) {
-    const std::uint32_t a = root(i), b = root(j);
-    parent_[std::max(a, b)] = std::min(a, b);
+  struct Place {
+    std::uint32_t root;
+    BoxShift shift;
+  };
+  Place find(std::uint32_t i) {
+    BoxShift shift = BoxShift::Zero();
+    while (parent_[i] != i) {
+      const std::uint32_t above = parent_[i];
+      shift_[i] += shift_[above];
+      parent_[i] = parent_[above];
+      shift += shift_[i];
+      i = parent_[i];
+    }
+    return {i, shift};
+  }
+  /// Joins j and the image of i that is moved by `moved` box lengths. The lower index becomes the root, so the sets do
+  /// not depend on the order of the calls.
+  void join(std::uint32_t i, std::uint32_t j, const BoxShift& moved) {
+    const Place a = find(i), b = find(j);
+    if (a.root == b.root) return;  // also a piece that meets itself round the box: it stays as it was found
+    const BoxShift between = a.shift - b.shift - moved;
+    const std::uint32_t upper = std::max(a.root, b.root);
+    parent_[upper] = std::min(a.root, b.root);
+    shift_[upper] = upper == b.root ? between : BoxShift(-between);
   }
 
  private:
   std::vector<std::uint32_t> parent_;
+  std::vector<BoxShift> shift_;  ///< to the parent
 };
 
 /// A cell of one of the grids; `level` counts octaves of particle size.
@@ -63,10 +83,6 @@ class HashedCells {
   std::size_t mask_;
   std::vector<std::uint32_t> start_, sorted_;
 };
-
-Vec<3> position_of(const FragmentInput& in, std::size_t i) {
-  return {in.position[0][i], in.position[1][i], in.dimension() == 2 ? 0.0 : in.position[2][i]};
-}
 
 /// |x_ij| < b (d_i + d_j) / 2.
 class LinkBySpacing {
@@ -119,6 +135,24 @@ class LinkBySupport {
   std::vector<double> reach_;
 };
 
+/// Calls body(position, box lengths moved) for particle i and for those of its images beyond periodic faces that are
+/// nearer than `reach` [m] to the box.
+template <class Body>
+void for_images(const FragmentInput& in, std::size_t i, double reach, Body&& body) {
+  const Vec<3> x = in.place(i);
+  BoxShift low = BoxShift::Zero(), high = BoxShift::Zero();
+  for (int a = 0; a < in.dimension(); ++a) {
+    const std::size_t axis = static_cast<std::size_t>(a);
+    if (!(in.box[axis].length > 0)) continue;
+    low[a] = x[a] > in.box[axis].min + in.box[axis].length - reach ? -1 : 0;
+    high[a] = x[a] < in.box[axis].min + reach ? 1 : 0;
+  }
+  BoxShift moved;
+  for (moved[2] = low[2]; moved[2] <= high[2]; ++moved[2])
+    for (moved[1] = low[1]; moved[1] <= high[1]; ++moved[1])
+      for (moved[0] = low[0]; moved[0] <= high[0]; ++moved[0]) body(in.unwrapped(x, moved), moved);
+}
+
 /// Joins all friends among `members`. Each particle looks into the grids of its own and of larger octaves, whose cells
 /// are at least as wide as any link between the two.
 template <class Link>
@@ -128,21 +162,22 @@ void join_linked(const FragmentInput& in, const std::vector<std::uint32_t>& memb
   double smallest = std::numeric_limits<double>::infinity();
   for (const std::uint32_t i : members) smallest = std::min(smallest, linked.reach(i));
 
-  const auto cell_in = [&](std::size_t i, int level) {
+  const auto cell_width = [&](int level) { return std::ldexp(smallest, level + 1); };
+  const auto cell_at = [&](const Vec<3>& x, int level) {
     // Beyond this many cells neighbours can no longer be told apart in double precision anyway.
     constexpr double far = 1e15;
-    const double width = std::ldexp(smallest, level + 1);
     Cell cell{level, {0, 0, 0}};
-    for (std::size_t a = 0; a < static_cast<std::size_t>(in.dimension()); ++a) {
-      const double place = std::floor(in.position[a][i] / width);
-      cell.index[a] = static_cast<std::int64_t>(place > -far ? std::min(place, far) : -far);  // NaN goes to -far
+    for (int a = 0; a < in.dimension(); ++a) {
+      const double place = std::floor(x[a] / cell_width(level));
+      cell.index[static_cast<std::size_t>(a)] =
+          static_cast<std::int64_t>(place > -far ? std::min(place, far) : -far);  // NaN goes to -far
     }
     return cell;
   };
   std::vector<int> levels;
   for (const std::uint32_t i : members) {
     const int level = std::ilogb(linked.reach(i) / smallest);
-    cell_of[i] = cell_in(i, level);
+    cell_of[i] = cell_at(in.place(i), level);
     levels.push_back(level);
   }
   std::sort(levels.begin(), levels.end());
@@ -151,26 +186,27 @@ void join_linked(const FragmentInput& in, const std::vector<std::uint32_t>& memb
   const HashedCells cells(members, cell_of);
   const int depth = in.dimension() == 3 ? 1 : 0;
   for (const std::uint32_t i : members) {
-    const Vec<3> x = position_of(in, i);
     for (auto level = std::lower_bound(levels.begin(), levels.end(), cell_of[i].level); level != levels.end();
          ++level) {
-      const Cell home = cell_in(i, *level);
-      for (int dz = -depth; dz <= depth; ++dz)
-        for (int dy = -1; dy <= 1; ++dy)
-          for (int dx = -1; dx <= 1; ++dx)
-            for (const std::uint32_t j :
-                 cells.at({*level, {home.index[0] + dx, home.index[1] + dy, home.index[2] + dz}})) {
-              if (j <= i && *level == cell_of[i].level) continue;  // seen from j
-              if (linked(i, j, position_of(in, j) - x)) sets.join(i, j);
-            }
+      for_images(in, i, cell_width(*level), [&](const Vec<3>& x, const BoxShift& moved) {
+        const Cell home = cell_at(x, *level);
+        for (int dz = -depth; dz <= depth; ++dz)
+          for (int dy = -1; dy <= 1; ++dy)
+            for (int dx = -1; dx <= 1; ++dx)
+              for (const std::uint32_t j :
+                   cells.at({*level, {home.index[0] + dx, home.index[1] + dy, home.index[2] + dz}})) {
+                if (j <= i && *level == cell_of[i].level) continue;  // seen from j
+                if (in.piece(i) == in.piece(j) && linked(i, j, in.place(j) - x)) sets.join(i, j, moved);
+              }
+      });
     }
   }
 }
 
 }  // namespace
 
-std::vector<std::uint32_t> join_friends(const FragmentInput& in, const std::vector<std::uint32_t>& members,
-                                        const FragmentSettings& settings) {
+Friends join_friends(const FragmentInput& in, const std::vector<std::uint32_t>& members,
+                     const FragmentSettings& settings) {
   DisjointSets sets(in.size());
   const bool by_support = settings.link == FragmentLink::support ||
                           (settings.link == FragmentLink::automatic && !in.smoothing_metric[0].empty());
@@ -179,9 +215,13 @@ std::vector<std::uint32_t> join_friends(const FragmentInput& in, const std::vect
   } else {
     join_linked(in, members, LinkBySpacing(in, members, settings.linking_length), sets);
   }
-  std::vector<std::uint32_t> root(in.size());
-  for (std::uint32_t i = 0; i < in.size(); ++i) root[i] = sets.root(i);
-  return root;
+  Friends friends{std::vector<std::uint32_t>(in.size()), std::vector<BoxShift>(in.size())};
+  for (std::uint32_t i = 0; i < in.size(); ++i) {
+    const auto [root, shift] = sets.find(i);
+    friends.root[i] = root;
+    friends.shift[i] = shift;
+  }
+  return friends;
 }
 
 }  // namespace ejecta

@@ -164,6 +164,7 @@ std::unique_ptr<Simulation<Dim>> set_up(const Scene& scene, const std::vector<Ma
     std::ranges::copy(sim->particles.column(Field::acceleration, a),
                       sim->particles.previous(Field::acceleration, a).begin());
   sim->initial = totals(sim->particles);
+  sim->outset = outset(sim->particles, scene, materials);
   return sim;
 }
 

@@ -14,6 +14,7 @@
 #include "schemes/pair_pass.hpp"
 #include "schemes/support_size.hpp"
 #include "simulation/diagnostics.hpp"
+#include "simulation/outset.hpp"
 
 namespace ejecta {
 
@@ -105,6 +106,7 @@ struct Simulation {
   Clock clock;
   TimeStepVote vote{0, "start", 0};
   Totals initial;         ///< conserved quantities at the start
+  Outset outset;          ///< of a fresh set-up; a restart makes it again
   ExternalLoad external;  ///< on driven bodies
   StageTimers timers;
   double wall_seconds = 0;  ///< spent in steps so far

@@ -102,6 +102,9 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
         viscosity_switches<Dim>);
   if (continuity && scene.numerics.smoothing_growth > 1)
     add("smoothing lengths", {neighbour_sum, smoothing_length, mass}, {smoothing_length}, smoothing_lengths<Dim>);
+  if (scene.output.peaks)
+    add("peaks", {position, pressure, specific_energy, density},
+        {pressure_peak, specific_energy_peak, density_low, initial_position}, peaks<Dim>);
   return stages;
 }
 

@@ -66,6 +66,11 @@ void viscosity_switches(Simulation<Dim>& sim);
 template <int Dim>
 void vote_shapes(Simulation<Dim>& sim);
 
+// --- peaks_stage.cpp -------------------------------------------------------------------------------------------------
+/// What each particle has seen so far: highest pressure and energy, lowest density; and where it was at the start.
+template <int Dim>
+void peaks(Simulation<Dim>& sim);
+
 // --- neighbour_stage.cpp ---------------------------------------------------------------------------------------------
 /// Renews the pair lists if somebody has left its margin, and the order of the particles if it has worn out.
 template <int Dim>

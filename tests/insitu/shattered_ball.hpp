@@ -76,7 +76,7 @@ struct ShatteredBall {
     c.name = "fragments";
     c.count = fx.size();
     c.position = {fx, fy, fz};
-    c.fields = {{"mass", "kg", {fragment_mass}}};
+    c.fields = {{"mass", "kg", {fragment_mass}}, {"target_mass", "kg", {fragment_mass}}};
     c.indices = {{"number", fragment_ids}};
     return c;
   }

@@ -16,9 +16,10 @@ template <int Dim>
 void fragment_search(benchmark::State& state) {
   const auto& sim = body<Dim>("pumice", particles);
   const auto& p = sim.particles;
-  const FragmentInput input{vectors(p, Field::position), vectors(p, Field::velocity), p.column(Field::mass),
-                            p.column(Field::density),    p.column(Field::damage),     p.column(Field::distension),
-                            p.label(Label::id),          p.label(Label::body),        p.label(Label::material)};
+  FragmentInput input{vectors(p, Field::position), vectors(p, Field::velocity), p.column(Field::mass),
+                      p.column(Field::density),    p.column(Field::damage),     p.column(Field::distension),
+                      p.label(Label::id),          p.label(Label::body),        p.label(Label::material)};
+  input.piece_of_body.assign(sim.scene.bodies.size(), 0);
   Measurement measured(state);
   measured.run([&] { benchmark::DoNotOptimize(find_groups(input, sim.scene.fragments)); });
   measured.items(static_cast<double>(p.size()));

@@ -45,8 +45,10 @@ TEST(Summary, HasExactlyThePromisedKeysInOrder) {
                                           "insitu_share",
                                           "insitu_bytes_written",
                                           "full_dump_bytes_avoided",
+                                          "fragment_target",
                                           "largest_fragment_mass_fraction",
                                           "fragments",
+                                          "bodies",
                                           "exit"};
   EXPECT_EQ(keys, promised);
 }
@@ -57,6 +59,7 @@ TEST(Summary, WritesValuesNullsAndEscapes) {
   s.energy_error_rel = 0.1 + 0.2;
   s.neighbours_mean = std::nan("");
   s.fragments = 0;
+  s.bodies = {{"ball", 2.5, 1, 0.75, 0.25, {}, {}}};
   s.exit = 3;
   const auto file = std::filesystem::path(testing::TempDir()) / "ejecta_summary.json";
   write_summary(file, s);
@@ -67,6 +70,9 @@ TEST(Summary, WritesValuesNullsAndEscapes) {
   EXPECT_NE(text.str().find("\"neighbours_mean\": null,"), std::string::npos);
   EXPECT_NE(text.str().find("\"images\": null,"), std::string::npos);
   EXPECT_NE(text.str().find("\"fragments\": 0,"), std::string::npos);
+  EXPECT_NE(text.str().find("\"ball\": {\"mass\": 2.5, \"fragments\": 1, \"largest_fragment_mass_fraction\": 0.75, "
+                            "\"dust_mass_fraction\": 0.25, \"pressure_peak_max\": null, "),
+            std::string::npos);
   EXPECT_NE(text.str().find("\"exit\": 3\n}"), std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(file.string() + ".part"));
   EXPECT_THROW(write_summary("/no_such_folder/summary.json", s), InputError);

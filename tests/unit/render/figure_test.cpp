@@ -51,6 +51,7 @@ TEST_F(FigureTest, EveryPlotIsDrawnAndNotBlank) {
   write_data();
   FigureSettings settings;
   settings.title = "Nylon ball on pumice_3d";
+  settings.fragment_target = "small_target";
   settings.resolution_limit = 8e-6;
   const std::vector<Figure> figures = make_figures(run, settings);
   ASSERT_EQ(figures.size(), 4u);

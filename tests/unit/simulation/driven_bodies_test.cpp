@@ -42,6 +42,17 @@ weibull_k = "1e9 1/m^3"
 strain = "pseudo_plastic"
 )";
 
+/// The ledger is exact where pair forces are central: a gas has pressure only.
+TEST(DrivenBodies, TheTorqueOfThePistonsIsCounted) {
+  std::string gas = gas_tube;
+  gas.replace(gas.find("[boundary]"), std::string::npos, "");
+  const auto sim = start<2>(gas, {"bodies.right.driven=true", "bodies.right.velocity=[\"-0.5 m/s\", \"0.3 m/s\"]"});
+  advance(*sim, 150);
+  const Totals now = totals(sim->particles);
+  EXPECT_GT((now.angular_momentum - sim->initial.angular_momentum).norm(), 1e-4 * now.angular_scale) << "none acted";
+  EXPECT_LT(conservation_errors(sim->initial, now, sim->external).angular_momentum, 1e-12);
+}
+
 TEST(DrivenBodies, KeepTheirVelocityAndStayWhole) {
   const auto sim = start<2>(rod);
   advance(*sim, 300);

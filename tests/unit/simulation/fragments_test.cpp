@@ -20,6 +20,8 @@ struct Cloud {
   std::array<std::vector<double>, 6> metric;  ///< empty: round
   std::vector<std::int32_t> id, body, material;
   int dimension = 3;
+  std::array<PeriodicAxis, 3> box;
+  std::vector<std::int32_t> piece_of_body{0, 1, 2};
 
   void add(Vec<3> position, Vec<3> velocity, double m = 1.0, double d = 1.0, double damaged = 0.0, int label = 0) {
     for (int a = 0; a < 3; ++a) {
@@ -57,6 +59,8 @@ struct Cloud {
     in.id = id;
     in.body = body;
     in.material = material;
+    in.box = box;
+    in.piece_of_body = piece_of_body;
     return in;
   }
 };
@@ -121,9 +125,12 @@ std::vector<int> brute_force(const FragmentInput& in, const FragmentSettings& se
     for (std::size_t k = 0; k < members.size(); ++k)
       for (std::size_t j = 0; j < n; ++j) {
         const std::size_t i = members[k];
-        if (label[j] != -1 || in.damage[j] >= settings.damage_threshold) continue;
+        if (label[j] != -1 || in.damage[j] >= settings.damage_threshold || in.piece(i) != in.piece(j)) continue;
         double r2 = 0;
-        for (int a = 0; a < in.dimension(); ++a) r2 += std::pow(in.position[a][i] - in.position[a][j], 2);
+        for (std::size_t a = 0; a < static_cast<std::size_t>(in.dimension()); ++a) {
+          const double x = in.position[a][i] - in.position[a][j], period = in.box[a].length;
+          r2 += std::pow(period > 0 ? std::remainder(x, period) : x, 2);
+        }
         const double d = std::pow(in.mass[i] / in.density[i], power) + std::pow(in.mass[j] / in.density[j], power);
         if (in.smoothing_metric[0].empty() && std::sqrt(r2) >= 0.5 * settings.linking_length * d) continue;
         if (!in.smoothing_metric[0].empty() &&
@@ -144,7 +151,7 @@ void expect_groups_of_brute_force(const Cloud& cloud) {
   FragmentSettings settings;
   settings.min_particles = 3;
   settings.damage_threshold = 0.8;
-  const std::vector<std::int32_t> groups = find_groups(cloud.input(), settings);
+  const std::vector<std::int32_t> groups = find_groups(cloud.input(), settings).number;
   const std::vector<int> expected = brute_force(cloud.input(), settings);
   std::set<std::pair<int, int>> pairs;
   std::set<int> mine, theirs;
@@ -163,6 +170,79 @@ void expect_groups_of_brute_force(const Cloud& cloud) {
 TEST(Fragments, AgreesWithComparingEveryPair) {
   for (const int dimension : {2, 3})
     expect_groups_of_brute_force(random_cloud(dimension, 1500, 7u + static_cast<unsigned>(dimension)));
+}
+
+TEST(Fragments, AcrossPeriodicFacesAgreesWithComparingEveryPair) {
+  for (const int dimension : {2, 3}) {
+    Cloud cloud = random_cloud(dimension, 1500, 7u + static_cast<unsigned>(dimension));
+    const double side = 1.35 * std::pow(1500, 1.0 / dimension);
+    cloud.box[0] = cloud.box[1] = {0, side};
+    expect_groups_of_brute_force(cloud);
+  }
+}
+
+/// A ball at the corner of the box, its particles put back in at the other sides.
+TEST(Fragments, APieceAcrossPeriodicFacesIsWhole) {
+  Cloud inside, across;
+  inside.add_ball({0, 0, 0}, 4, {3, -1, 2}, {0.1, -0.2, 0.25});
+  across = inside;
+  across.box = {PeriodicAxis{-1, 20}, PeriodicAxis{-20.5, 21}, PeriodicAxis{}};
+  for (double& x : across.x[0]) x += x < -1 ? 20 : 0;
+  for (double& y : across.x[1]) y -= y >= 0.5 ? 21 : 0;
+  const FragmentTable expected = describe_groups(inside.input(), find_groups(inside.input(), {}));
+  const FragmentTable table = describe_groups(across.input(), find_groups(across.input(), {}));
+  ASSERT_EQ(table.fragments.size(), 1u);
+  const Fragment &one = expected.fragments[0], &other = table.fragments[0];
+  EXPECT_EQ(other.carried.particles, inside.mass.size());
+  EXPECT_NEAR((other.centre - one.centre).norm(), 0, 1e-13);
+  EXPECT_NEAR((other.spin - one.spin).norm(), 0, 1e-13);
+  EXPECT_NEAR((other.semi_axes - one.semi_axes).norm(), 0, 1e-13);
+}
+
+TEST(Fragments, APieceRoundTheWholeBoxIsOne) {
+  Cloud bar;
+  for (int i = 0; i < 12; ++i) bar.add({i + 0.5, 0, 0}, Vec<3>::Zero());
+  bar.box[0] = {0, 12};
+  const FragmentTable table = describe_groups(bar.input(), find_groups(bar.input(), {}));
+  ASSERT_EQ(table.fragments.size(), 1u);
+  EXPECT_NEAR(table.fragments[0].semi_axes[0], std::sqrt(5.0 * 144 / 12), 1e-12);  // unwrapped somewhere, not folded
+}
+
+/// Half a spacing between them is less than a link.
+TEST(Fragments, BodiesThatTouchAreTwoPiecesUnlessWelded) {
+  Cloud cloud;
+  cloud.add_ball({0, 0, 0}, 4, Vec<3>::Zero(), Vec<3>::Zero(), 0);
+  const double first = static_cast<double>(cloud.mass.size());
+  cloud.add_ball({8.5, 0, 0}, 4, Vec<3>::Zero(), Vec<3>::Zero(), 1);
+  const auto pieces = [&] { return describe_groups(cloud.input(), find_groups(cloud.input(), {})); };
+  EXPECT_EQ(pieces().fragments.size(), 2u);
+  cloud.piece_of_body[1] = cloud.piece_of_body[0];
+  const FragmentTable welded = pieces();
+  ASSERT_EQ(welded.fragments.size(), 1u);
+  EXPECT_EQ(welded.largest_mass(0), first);
+  cloud.piece_of_body = {-1, 1};  // the first is a gas
+  EXPECT_EQ(pieces().fragments.size(), 1u);
+  EXPECT_EQ(pieces().largest_mass(0), 0);
+  EXPECT_EQ(pieces().dust_mass_by_body[0], first);
+}
+
+TEST(Fragments, PiecesOfTheTargetComeFirst) {
+  Cloud cloud;
+  cloud.add_ball({0, 0, 0}, 4, Vec<3>::Zero(), Vec<3>::Zero(), 0);
+  cloud.add_ball({20, 0, 0}, 2, Vec<3>::Zero(), Vec<3>::Zero(), 1);
+  cloud.add_ball({40, 0, 0}, 3, Vec<3>::Zero(), Vec<3>::Zero(), 1);
+  cloud.add({60, 0, 0}, Vec<3>::Zero(), 1, 1, 0, 1);  // dust
+  FragmentInput in = cloud.input();
+  in.target = 1;
+  const FragmentTable table = describe_groups(in, find_groups(in, {}));
+  ASSERT_EQ(table.fragments.size(), 3u);
+  EXPECT_EQ(table.fragments[0].carried.mass, 123);
+  EXPECT_EQ(table.fragments[1].carried.mass, 33);
+  EXPECT_EQ(table.fragments[2].carried.mass, 257);
+  EXPECT_EQ(table.largest_mass(1), 123);
+  const FragmentSensitivity outcome = fragment_sensitivity(in, {})[1];
+  EXPECT_DOUBLE_EQ(outcome.largest_mass_fraction, 123.0 / 157);
+  EXPECT_DOUBLE_EQ(outcome.dust_mass_fraction, 1.0 / 157);
 }
 
 TEST(Fragments, LinksByEllipsoidsAgreeWithComparingEveryPair) {
@@ -256,6 +336,7 @@ TEST(Fragments, BridgeJoinsAndLinkingLengthDecides) {
 TEST(Fragments, SumsEqualTotalsToRoundOff) {
   for (const int dimension : {2, 3}) {
     Cloud cloud = random_cloud(dimension, 4000, 3);
+    cloud.piece_of_body = {0, 0, 0};  // welded: apart, the mixture would hardly hang together
     FragmentSettings settings;
     settings.damage_threshold = 0.9;
     const FragmentTable table = describe_groups(cloud.input(), find_groups(cloud.input(), settings));
