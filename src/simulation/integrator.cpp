@@ -13,8 +13,7 @@ struct StateAndRate {
 constexpr StateAndRate pairs[] = {{Field::velocity, Field::acceleration},
                                   {Field::density, Field::density_rate},
                                   {Field::specific_energy, Field::heating},
-                                  {Field::deviatoric_stress, Field::stress_rate},
-                                  {Field::crack, Field::crack_rate}};
+                                  {Field::deviatoric_stress, Field::stress_rate}};
 
 /// Calls body(state column, rate column, previous rate column) for every component of every pair present.
 template <int Dim, class Body>
