@@ -1,5 +1,6 @@
 #include "material/damage.hpp"
 
+#include <limits>
 #include <numbers>
 
 #include "base/random.hpp"
@@ -28,6 +29,23 @@ Flaws draw_flaws(const GradyKipp& model, double volume, double particles, std::u
   const double log_eps_max = (std::log(mean) - std::log(model.weibull_k) - std::log(volume)) / model.weibull_m;
   const double log_ratio = (std::log(largest) - std::log(least)) / model.weibull_m;
   return {std::exp(log_eps_max + std::log(least) / model.weibull_m), n > 1 ? std::log(n) / log_ratio : 0.0, n};
+}
+
+double draw_weakest_flaw(const GradyKipp& model, double volume, std::uint64_t seed, std::uint64_t key) {
+  const double number = -std::log(uniform_random(seed, key, 0));
+  return std::exp((std::log(number) - std::log(model.weibull_k) - std::log(volume)) / model.weibull_m);
+}
+
+OpenCracks dealt_cracks(const Flaws& flaws) {
+  const double strongest = flaws.exponent > 0 ? flaws.strain * std::pow(flaws.count, 1 / flaws.exponent) : flaws.strain;
+  return {flaws.strain, flaws.strain, strongest, flaws.exponent, flaws.count};
+}
+
+OpenCracks weibull_cracks(const GradyKipp& model, int dim, double volume, double weakest) {
+  const double m = model.weibull_m;
+  const double share = dim == 2 ? (m + 2) / (2 * (m + 1)) : 2 * (m + 3) * (m + 3) / (9 * (m + 1) * (m + 2));
+  const double one = std::exp(-(std::log(share) + std::log(model.weibull_k) + std::log(volume)) / m);
+  return {weakest, one, std::numeric_limits<double>::infinity(), m / dim};
 }
 
 }  // namespace ejecta

@@ -1,7 +1,6 @@
 #pragma once
-/// Grady-Kipp fragmentation by Weibull-distributed flaws: scalar damage D (tensor_damage.hpp: tensor) (Benz & Asphaug
-/// 1994, Icarus 107, 98; 1995, Comput. Phys. Commun. 87, 253). The crack length, proportional to D^(1/3), is what is
-/// integrated in time.
+/// Grady-Kipp fragmentation by Weibull-distributed flaws: scalar damage D (tensor_damage.hpp: tensor). The crack
+/// length, proportional to D^(1/Dim), is what is integrated in time.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -12,11 +11,20 @@ namespace ejecta {
 /// (tensor_damage.hpp).
 enum class CrackStrain { benz_asphaug, pseudo_plastic, strain_history };
 
+/// How fast the cracks of a particle grow with the strain.
+///   grady_kipp:   every crack relieves a sphere (in plane strain a disc) of its own length; the same for particles of
+///                 any size (Grady & Kipp 1980, Int. J. Rock Mech. 17, 147).
+///   benz_asphaug: c_g/R_s for each open one of the flaws dealt to the particle, R_s its smoothing length, and no more
+///                 damage than the share of its flaws that is open (Benz & Asphaug 1994, Icarus 107, 98; 1995, Comput.
+///                 Phys. Commun. 87, 253).
+enum class CrackLaw { grady_kipp, benz_asphaug };
+
 /// Flaws that open below strain eps: k eps^m per volume.
 struct GradyKipp {
   double weibull_m;
   double weibull_k;  ///< 1/m^3 (1/m^2 in plane strain); values up to 1e61 occur, only its logarithm is used
-  double crack_speed_factor = 0.4;                 ///< speed of a growing crack / longitudinal wave speed
+  double crack_speed_factor = 0.4;  ///< speed of a growing crack / longitudinal wave speed
+  CrackLaw growth = CrackLaw::grady_kipp;
   bool tensor = false;                             ///< cracks have directions
   CrackStrain strain = CrackStrain::benz_asphaug;  ///< of tensor damage
 
@@ -24,8 +32,8 @@ struct GradyKipp {
   bool remembers_strain() const { return tensor && strain != CrackStrain::benz_asphaug; }
 };
 
-/// A particle's flaws in three numbers: n_active(eps) = (eps/strain)^exponent between the weakest and the strongest
-/// flaw.
+/// The flaws dealt to a particle in three numbers: n_active(eps) = (eps/strain)^exponent between the weakest and the
+/// strongest flaw.
 struct Flaws {
   double strain;    ///< at which the weakest flaw opens
   double exponent;  ///< ln(count)/ln(strongest strain/weakest strain); 0 for a single flaw
@@ -44,20 +52,74 @@ struct Flaws {
 /// @param key        identifies the particle, e.g. a hash of its quantised initial position
 Flaws draw_flaws(const GradyKipp& model, double volume, double particles, std::uint64_t seed, std::uint64_t key);
 
-/// Flaws open at a local strain, 0 to count.
-inline double active_flaws(double strain, const Flaws& flaws) {
-  if (!(strain >= flaws.strain)) return 0;
-  return std::min(flaws.count, std::pow(strain / flaws.strain, flaws.exponent));
+/// Strain of the weakest flaw of the same process without an end: k V_p eps^m is exponentially distributed. Arguments
+/// as above.
+double draw_weakest_flaw(const GradyKipp& model, double volume, std::uint64_t seed, std::uint64_t key);
+
+/// By how much faster than a single crack the cracks of a particle lengthen at a strain: 0 below the weakest flaw, else
+/// (clamp(eps, from, to)/from)^exponent. Its integral over the strain is known, and with it the growth in a step in
+/// which the strain is linear in time, however far the strain goes in it.
+struct OpenCracks {
+  double weakest;   ///< strain below which none grows
+  double from, to;  ///< strains between which it rises
+  double exponent;
+  double count = 1;  ///< dealt to the particle; 1: no limit on the damage before D = 1
+
+  double at(double strain) const {
+    return strain >= weakest ? std::pow(std::clamp(strain, from, to) / from, exponent) : 0;
+  }
+
+  /// Mean over the strains between two.
+  double mean(double before, double after) const {
+    const double change = after - before;
+    // Closer, round-off of the difference would exceed the error of the value in between.
+    if (!(std::abs(change) > 1e-6 * std::max(before, after))) return at(0.5 * (before + after));
+    return (integral(std::max(after, weakest)) - integral(std::max(before, weakest))) / change;
+  }
+
+ private:
+  double integral(double strain) const {
+    if (strain <= from) return strain;
+    const double end = std::min(strain, to), factor = std::pow(end / from, exponent);
+    return from + (end * factor - from) / (exponent + 1) + factor * (strain - end);
+  }
+};
+
+/// Of the flaws dealt to a particle, the open ones: n_active.
+OpenCracks dealt_cracks(const Flaws& flaws);
+
+/// Law of Grady & Kipp for cracks of radius c_g (t - t_i) that opened at t_i: the share of the volume they relieve is
+/// D = 4 pi/(3 V) c_g^3 sum (t - t_i)^3. For a strain that rises steadily and n = k V eps^m open flaws that is
+///   d(D^(1/3))/dt = (C n)^(1/3) c_g/R,  C = 2 (m + 3)^2/(9 (m + 1) (m + 2)),  4 pi R^3/3 = V
+/// (Melosh, Ryan & Asphaug 1992, J. Geophys. Res. 97, 14735); with discs in plane strain
+///   d(D^(1/2))/dt = (C n)^(1/2) c_g/R,  C = (m + 2)/(2 (m + 1)),  pi R^2 = V.
+/// A single crack grows by c_g/R. So it is (max(1, C n))^(1/Dim) from the weakest flaw of the particle on: on average
+/// right where particles hold many flaws as where few hold any.
+/// @param volume   of the particle's solid matter [m^3; m^2 in plane strain]
+/// @param weakest  strain of its weakest flaw
+OpenCracks weibull_cracks(const GradyKipp& model, int dim, double volume, double weakest);
+
+/// x^(1/Dim) and its inverse, between damage and the length of a crack.
+template <int Dim>
+double crack_length(double damage) {
+  return Dim == 2 ? std::sqrt(damage) : std::cbrt(damage);
+}
+template <int Dim>
+double crack_damage(double length) {
+  return Dim == 2 ? length * length : length * length * length;
 }
 
-/// Rate of D^(1/3) [1/s]: n_active c_g/R_s (Benz & Asphaug 1994: c_g/R_s for each open crack) with crack speed c_g
-/// [m/s] and R_s [m] the radius of the region that cracks relieve (the smoothing length).
-inline double crack_growth_rate(double active, double crack_speed, double radius) {
-  return active * crack_speed / radius;
+/// Length D^(1/Dim) of a crack at the end of a step in which the strain goes from `before` to `after`; never shorter,
+/// never beyond 1 or the share (n_active/n)^(1/Dim) of the dealt flaws that is open.
+/// @param growth  c_g dt/R: what a single crack would grow by
+template <int Dim>
+double longer_crack(double length, double before, double after, const OpenCracks& cracks, double growth) {
+  const double most = std::max(before, after);
+  if (!(most >= cracks.weakest)) return length;
+  const double limit = cracks.count > 1 ? crack_length<Dim>(cracks.at(most) / cracks.count) : 1;
+  if (length >= limit) return length;
+  return std::min(length + growth * cracks.mean(before, after), limit);
 }
-
-/// D^(1/3) never exceeds (n_active/n)^(1/3): only open flaws can break their share of the particle.
-inline double crack_limit(double active, const Flaws& flaws) { return std::cbrt(active / flaws.count); }
 
 /// Scalar strain that opens flaws: eps = alpha sigma_max/((1 - D) E), 0 unless sigma_max > 0 and D < 1.
 /// (1 - D) E is Young's modulus of the cracked solid. The factor alpha turns it into that of the porous body: at

@@ -149,6 +149,8 @@ void describe(Describer& d, GradyKipp& m, bool tensor) {
   constant(d, "weibull_k", m.weibull_k, "1/m^3", positive, "flaws per volume with strain below 1; per area in 2D");
   d.number("crack_speed_factor", m.crack_speed_factor, "1", {.min = 0, .max = 1, .open_min = true},
            "speed of a crack / longitudinal wave speed");
+  d.choice("growth", m.growth,
+           "how fast open flaws damage: as the spheres they relieve, whatever the particle size, or n c_g/h");
   if (tensor)
     d.choice(
         "strain", m.strain,

@@ -15,6 +15,8 @@ constexpr auto enum_names(CrackStrain) {
   return std::to_array<std::string_view>({"benz_asphaug", "pseudo_plastic", "strain_history"});
 }
 
+constexpr auto enum_names(CrackLaw) { return std::to_array<std::string_view>({"grady_kipp", "benz_asphaug"}); }
+
 struct PorositySettings {
   double initial_distension = unset;     ///< alpha0 = grain density / bulk density
   double elastic_pressure = unset;       ///< P_e [Pa]

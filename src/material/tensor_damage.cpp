@@ -49,32 +49,32 @@ double damage_length(const Mat<Dim>& metric, const Vec<Dim>& normal) {
 }
 
 template <int Dim>
-double grow_cracks(Mat<Dim>& damage, const Mat<Dim>& strain, const CrackGrowth<Dim>& growth, double dt) {
+void grow_cracks(Mat<Dim>& damage, const Mat<Dim>& before, const Mat<Dim>& after, const CrackGrowth<Dim>& growth,
+                 double dt) {
   using Eigensystem = Eigen::SelfAdjointEigenSolver<Mat<Dim>>;
   // No eigenvalue is larger than the Frobenius norm: this spares most particles the solution.
-  if (!(strain.norm() >= growth.flaws.strain)) return 0;
-  const Eigensystem strained(strain);
-  double fastest = 0;
+  const double weakest = growth.cracks.weakest;
+  if (!(std::max(before.squaredNorm(), after.squaredNorm()) >= weakest * weakest)) return;
+  const Eigensystem strained(after);
   for (int k = Dim - 1; k >= 0; --k) {
-    const double active = active_flaws(strained.eigenvalues()[k], growth.flaws);
-    if (active == 0) continue;
+    const Vec<Dim> n = strained.eigenvectors().col(k);
+    const double from = n.dot(before * n), to = strained.eigenvalues()[k];
+    if (!(std::max(from, to) >= weakest)) continue;
     // In the axes of D: n.D n and n.A n are then sums of what is positive, and their round-off cannot heal or exceed.
     const Eigensystem axes(damage);
     const Vec<Dim> d = axes.eigenvalues().cwiseMax(0).cwiseMin(1), a = Vec<Dim>::Ones() - d;
-    const Vec<Dim> n = strained.eigenvectors().col(k), y = axes.eigenvectors().transpose() * n;
+    const Vec<Dim> y = axes.eigenvectors().transpose() * n;
     const double broken = d.dot(y.cwiseAbs2()), intact = a.dot(y.cwiseAbs2());
-    const double crack = std::cbrt(broken), limit = crack_limit(active, growth.flaws);
-    if (!(crack < limit && intact > 0)) continue;
-    const double rate = crack_growth_rate(active, growth.crack_speed, damage_length<Dim>(growth.metric, n));
-    const double longer = std::min(crack + dt * rate, limit);
+    if (!(intact > 0)) continue;
+    const double crack = crack_length<Dim>(broken);
+    const double longer = longer_crack<Dim>(crack, from, to, growth.cracks,
+                                            dt * growth.crack_speed / damage_length<Dim>(growth.metric, n));
     if (!(longer > crack)) continue;
-    fastest = std::max(fastest, (longer - crack) / dt);
-    const double lost = std::min((longer * longer * longer - broken) / intact, 1.0);
+    const double lost = std::min((crack_damage<Dim>(longer) - broken) / intact, 1.0);
     const Vec<Dim> left = a.cwiseProduct(y);  // A n
     const Mat<Dim> grown = Mat<Dim>(d.asDiagonal()) + lost / intact * left * left.transpose();
     damage = turned<Dim>(grown, axes.eigenvectors());
   }
-  return fastest;
 }
 
 template <int Dim>
@@ -90,8 +90,8 @@ template Mat<2> straining<2>(CrackStrain, const Mat<2>&);
 template Mat<3> straining<3>(CrackStrain, const Mat<3>&);
 template double damage_length<2>(const Mat<2>&, const Vec<2>&);
 template double damage_length<3>(const Mat<3>&, const Vec<3>&);
-template double grow_cracks<2>(Mat<2>&, const Mat<2>&, const CrackGrowth<2>&, double);
-template double grow_cracks<3>(Mat<3>&, const Mat<3>&, const CrackGrowth<3>&, double);
+template void grow_cracks<2>(Mat<2>&, const Mat<2>&, const Mat<2>&, const CrackGrowth<2>&, double);
+template void grow_cracks<3>(Mat<3>&, const Mat<3>&, const Mat<3>&, const CrackGrowth<3>&, double);
 template double largest_eigenvalue<2>(const Mat<2>&);
 template double largest_eigenvalue<3>(const Mat<3>&);
 

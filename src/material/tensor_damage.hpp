@@ -42,22 +42,21 @@ double damage_length(const Mat<Dim>& metric, const Vec<Dim>& normal);
 /// What a particle's cracks depend on.
 template <int Dim>
 struct CrackGrowth {
-  Flaws flaws;
+  OpenCracks cracks;
   double crack_speed;  ///< m/s
   Mat<Dim> metric;     ///< G [1/m^2]
 };
 
-/// Lets the cracks of `damage` grow for a time dt [s] across every eigenvector n of the strain, largest strain first:
-///   D0 = n.D n,   D1^(1/3) = min(D0^(1/3) + dt n_active c_g/R(n), (n_active/n)^(1/3)) >= D0^(1/3)
+/// Lets the cracks of `damage` grow for a time dt [s], in which the strain goes from `before` to `after`, across every
+/// eigenvector n of `after`, largest strain first: from D0 = n.D n to D1 >= D0 by longer_crack() with R(n).
 /// The intact part A = I - D loses its share across n,
 ///   A <- A - (D1 - D0)/(1 - D0) A n (A n)^T/(n.A n),
 /// which is D <- D + (D1 - D0) n n^T if n is an eigenvector of D. Added for any other n, n n^T would carry eigenvalues
 /// beyond 1, and cutting them off would heal the cracks that were open; this form is A^(1/2) (I - g p p^T) A^(1/2) with
 /// |p| = 1 and 0 <= g <= 1, so that 0 <= A <= its old value: eigenvalues stay in 0..1 and nothing heals.
-/// Returns the fastest growth of D^(1/3) in any direction over dt [1/s], 0 if no crack grows: a crack held up by the
-/// flaws open so far follows the strain, slowly, and asks for no short step.
 template <int Dim>
-double grow_cracks(Mat<Dim>& damage, const Mat<Dim>& strain, const CrackGrowth<Dim>& growth, double dt);
+void grow_cracks(Mat<Dim>& damage, const Mat<Dim>& before, const Mat<Dim>& after, const CrackGrowth<Dim>& growth,
+                 double dt);
 
 /// Largest eigenvalue of a symmetric tensor.
 template <int Dim>

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "base/parallel.hpp"
 #include "material/tensor_damage.hpp"
+#include "particles/smoothing_metric.hpp"
 #include "simulation/particle_state.hpp"
 #include "simulation/stages.hpp"
 
@@ -10,75 +12,85 @@ namespace ejecta {
 
 namespace {
 
-/// Local strain, or 0 where a bound on the largest principal stress, -P + 2 sqrt(J2/3), shows that it cannot reach the
-/// weakest flaw: true for most particles, and it saves them the solution of a cubic.
+/// Local strain, or a bound on it where that is below the weakest flaw: the largest principal stress is at most
+/// -P + 2 sqrt(J2/3). True for most particles, and it saves them the solution of a cubic.
 template <int Dim>
 double opening_strain(double pressure, const Deviator<Dim>& s, double weakest, double young, double alpha) {
-  const double bound = 2 * std::sqrt(second_invariant<Dim>(s) / 3) - pressure;
-  if (local_strain(bound, 0, young, alpha) < weakest) return 0;
+  const double bound = local_strain(2 * std::sqrt(second_invariant<Dim>(s) / 3) - pressure, 0, young, alpha);
+  if (bound < weakest) return bound;
   return local_strain(largest_principal_stress<Dim>(pressure, s), 0, young, alpha);
 }
 
 template <int Dim>
-Flaws flaws_of(const Particles<Dim>& p, std::size_t i) {
-  return {p.column(Field::flaw_strain)[i], p.column(Field::flaw_exponent)[i], p.column(Field::flaw_count)[i]};
+OpenCracks cracks_of(const Particles<Dim>& p, const Material& material, std::size_t i) {
+  const double weakest = p.column(Field::flaw_strain)[i];
+  if (material.damage->growth == CrackLaw::benz_asphaug)
+    return dealt_cracks({weakest, p.column(Field::flaw_exponent)[i], p.column(Field::flaw_count)[i]});
+  return weibull_cracks(*material.damage, Dim, p.column(Field::mass)[i] / reference_density(material.eos), weakest);
 }
 
-/// Scalar damage: sets the growth of the crack length and returns the tensile damage reached. Pressure and deviator are
-/// still those before damage, so the strain is that of the undamaged solid.
+/// Radius of the region that cracks relieve [m]: of a sphere (a disc) of the particle's volume, or R_s = h.
 template <int Dim>
-double scalar_damage(Particles<Dim>& p, const Material& material, std::size_t i) {
-  // A last step may carry the crack length beyond 1; cutting it off there would let the corrector heal it.
-  const double crack = std::min(p.column(Field::crack)[i], 1.0);
-  const Flaws flaws = flaws_of(p, i);
-  const double active =
-      active_flaws(opening_strain<Dim>(p.column(Field::pressure)[i], deviator<Dim>(p, i), flaws.strain,
-                                       material.elastic->young(), distension_of(p, material, i)),
-                   flaws);
-  const double crack_speed = material.damage->crack_speed_factor * p.column(Field::sound_speed)[i];
-  p.column(Field::crack_rate)[i] = crack < crack_limit(active, flaws)
-                                       ? crack_growth_rate(active, crack_speed, p.column(Field::smoothing_length)[i])
-                                       : 0.0;
-  return crack * crack * crack;
+double relieved_radius(const Particles<Dim>& p, const Material& material, std::size_t i) {
+  if (material.damage->growth == CrackLaw::benz_asphaug) return p.column(Field::smoothing_length)[i];
+  const double volume = p.column(Field::mass)[i] / p.column(Field::density)[i];
+  return Dim == 2 ? std::sqrt(volume / std::numbers::pi) : std::cbrt(volume / (4 * std::numbers::pi / 3));
 }
 
-/// G of a particle; I/h^2 without ASPH.
 template <int Dim>
-Mat<Dim> metric_of(const Particles<Dim>& p, std::size_t i) {
-  if (p.has(Field::smoothing_metric)) return p.symmetric(Field::smoothing_metric, i);
-  const double h = p.column(Field::smoothing_length)[i];
-  return Mat<Dim>(Mat<Dim>::Identity()) / (h * h);
+double crack_speed(const Particles<Dim>& p, const Material& material, std::size_t i) {
+  return material.damage->crack_speed_factor * p.column(Field::sound_speed)[i];
 }
 
-/// The strain that opens flaws, brought to the end of the step; `turn` is the rotation of the matter in it.
+/// Scalar damage: carries the crack to the end of the step and returns the tensile damage reached. Pressure and
+/// deviator are still those before damage, so the strain is that of the undamaged solid: it does not depend on the
+/// damage, and what the damage becomes is an integral.
 template <int Dim>
-Mat<Dim> crack_strain(Particles<Dim>& p, const Material& material, std::size_t i, const Mat<Dim>& gradient,
-                      const Mat<Dim>& turn, double dt) {
-  const CrackStrain choice = material.damage->strain;
-  if (!material.damage->remembers_strain())
-    return stress_strain<Dim>(p.column(Field::pressure)[i], deviator(p, i), material.elastic->young(),
-                              distension_of(p, material, i));
-  const Mat<Dim> strain =
-      turned<Dim>(p.symmetric(Field::strain_history, i), turn) + dt * straining<Dim>(choice, gradient);
-  p.set_symmetric(Field::strain_history, i, strain);
-  return strain;
+double scalar_damage(Particles<Dim>& p, const Material& material, std::size_t i, double dt) {
+  double& crack = p.column(Field::crack)[i];
+  double& strain = p.column(Field::local_strain)[i];
+  const double weakest = p.column(Field::flaw_strain)[i], before = strain;
+  strain = opening_strain<Dim>(p.column(Field::pressure)[i], deviator<Dim>(p, i), weakest, material.elastic->young(),
+                               distension_of(p, material, i));
+  if (std::max(before, strain) >= weakest && crack < 1)
+    crack = longer_crack<Dim>(crack, before, strain, cracks_of(p, material, i),
+                              dt * crack_speed(p, material, i) / relieved_radius(p, material, i));
+  return crack_damage<Dim>(crack);
+}
+
+/// The region that cracks relieve: a sphere (a disc) of the particle's volume, or its smoothing ellipsoid.
+template <int Dim>
+Mat<Dim> relieved_metric(const Particles<Dim>& p, const Material& material, std::size_t i) {
+  if (material.damage->growth == CrackLaw::benz_asphaug && p.has(Field::smoothing_metric))
+    return p.symmetric(Field::smoothing_metric, i);
+  return round_metric<Dim>(relieved_radius(p, material, i));
 }
 
 /// Tensor damage: carries D and the strain to the end of the step and returns the largest eigenvalue of D.
 template <int Dim>
 double tensor_damage(Particles<Dim>& p, const Material& material, std::size_t i, double dt) {
   Mat<Dim> damage = p.symmetric(Field::damage_tensor, i);
-  const bool broken = !damage.isZero(0);
-  const bool moves = broken || material.damage->remembers_strain();
-  const Mat<Dim> gradient = moves ? straining_gradient(p, material, i) : Mat<Dim>(Mat<Dim>::Zero());
-  const Mat<Dim> turn = rotation<Dim>(gradient, dt);
-  const Mat<Dim> strain = crack_strain(p, material, i, gradient, turn, dt);
-  if (broken) damage = turned<Dim>(damage, turn);
-  const double crack_speed = material.damage->crack_speed_factor * p.column(Field::sound_speed)[i];
-  const CrackGrowth<Dim> growth{flaws_of(p, i), crack_speed, metric_of(p, i)};
-  p.column(Field::damage_tensor_growth)[i] = grow_cracks<Dim>(damage, strain, growth, dt);
+  const Mat<Dim> gradient = straining_gradient(p, material, i), turn = rotation<Dim>(gradient, dt);
+  const Mat<Dim> before = turned<Dim>(p.symmetric(Field::strain_history, i), turn);
+  const Mat<Dim> after = material.damage->remembers_strain()
+                             ? Mat<Dim>(before + dt * straining<Dim>(material.damage->strain, gradient))
+                             : stress_strain<Dim>(p.column(Field::pressure)[i], deviator(p, i),
+                                                  material.elastic->young(), distension_of(p, material, i));
+  p.set_symmetric(Field::strain_history, i, after);
+  if (!damage.isZero(0)) damage = turned<Dim>(damage, turn);
+  const double weakest = p.column(Field::flaw_strain)[i];
+  if (std::max(before.squaredNorm(), after.squaredNorm()) >= weakest * weakest)
+    grow_cracks<Dim>(damage, before, after,
+                     {cracks_of(p, material, i), crack_speed(p, material, i), relieved_metric(p, material, i)}, dt);
+  if (damage.isZero(0)) return 0;
   p.set_symmetric(Field::damage_tensor, i, damage);
   return largest_eigenvalue<Dim>(damage);
+}
+
+/// Share of the deviator that damage without a direction leaves.
+double left_by(const Material& material, double damage) {
+  return material.strength ? std::visit([&](const auto& s) { return s.intact_fraction(damage); }, *material.strength)
+                           : 1 - damage;
 }
 
 }  // namespace
@@ -97,23 +109,26 @@ void damage(Simulation<Dim>& sim) {
         sim.intact[i] = 1;
         return;
       }
+      double& broken = p.column(Field::damage)[i];
+      double& pressure = p.column(Field::pressure)[i];
+      // Nothing is left to grow where scalar damage is complete.
+      if (broken >= 1 && !material.tensor_damage()) {
+        pressure = damaged_pressure(pressure, 1);
+        sim.intact[i] = left_by(material, 1);
+        return;
+      }
       const double pores =
           crushes ? pore_damage(distension_of(p, material, i), material.porosity->initial_distension()) : 0;
       double total = pores;
       if (material.tensor_damage())
         total += tensor_damage(p, material, i, sim.clock.dt);
       else if (material.damage)
-        total += scalar_damage(p, material, i);
-      // What is broken stays broken, also where the corrector takes back part of the crack that was predicted.
-      double& broken = p.column(Field::damage)[i];
+        total += scalar_damage(p, material, i, sim.clock.dt);
+      // What is broken stays broken.
       broken = total = std::clamp(total, broken, 1.0);
-      double& pressure = p.column(Field::pressure)[i];
       pressure = damaged_pressure(pressure, total);
       // Cracks with a direction take the deviator away pair by pair; crushed pores have none.
-      const double everywhere = material.cuts_pairs() ? pores : total;
-      sim.intact[i] = material.strength
-                          ? std::visit([&](const auto& s) { return s.intact_fraction(everywhere); }, *material.strength)
-                          : 1 - everywhere;
+      sim.intact[i] = left_by(material, material.cuts_pairs() ? pores : total);
     });
   }
 }

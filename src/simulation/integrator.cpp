@@ -12,8 +12,7 @@ struct StateAndRate {
 /// All pairs but (position, velocity), which is advanced to second order by itself, and density, whose logarithm is.
 constexpr StateAndRate pairs[] = {{Field::velocity, Field::acceleration},
                                   {Field::specific_energy, Field::heating},
-                                  {Field::deviatoric_stress, Field::stress_rate},
-                                  {Field::crack, Field::crack_rate}};
+                                  {Field::deviatoric_stress, Field::stress_rate}};
 
 /// Calls body(state column, rate column, previous rate column) for every component of every pair present.
 template <int Dim, class Body>

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "simulation/pieces.hpp"
+
 namespace ejecta {
 
 namespace {
@@ -79,10 +81,8 @@ std::size_t target_body(const Scene& scene, const std::vector<BodyAtOutset>& bod
 
 std::vector<std::int32_t> pieces_of_bodies(const Scene& scene, const std::vector<Material>& materials,
                                            const std::vector<int>& body_material) {
-  std::vector<std::int32_t> pieces(scene.bodies.size());
-  std::iota(pieces.begin(), pieces.end(), 0);
-  for (std::size_t b = 0; b < pieces.size(); ++b)
-    if (is_gas(materials[static_cast<std::size_t>(body_material[b])])) pieces[b] = -1;
+  std::vector<std::int32_t> pieces = pieces_of(scene, materials, body_material);
+  std::ranges::replace(pieces, 0, -1);  // gases
   return pieces;
 }
 

@@ -109,13 +109,18 @@ void plant(Simulation<Dim>& sim, const std::vector<Seedling<Dim>>& seedlings) {
     if (p.has(Field::viscosity_factor)) p.column(Field::viscosity_factor)[i] = 1;
     if (p.has(Field::shock_switch)) p.column(Field::shock_switch)[i] = 1;
     if (p.has(Field::stress_factor)) p.column(Field::stress_factor)[i] = 1;
-    if (p.has(Field::flaw_count) && material.damage) {
+    if (material.damage) {
       const double solid_volume = s.density * s.volume / reference_density(material.eos);
-      const Flaws flaws = draw_flaws(*material.damage, solid_volume, per_body[static_cast<std::size_t>(s.body)],
-                                     scene.seed, position_key<Dim>(s.site, s.spacing));
-      p.column(Field::flaw_strain)[i] = flaws.strain;
-      p.column(Field::flaw_exponent)[i] = flaws.exponent;
-      p.column(Field::flaw_count)[i] = flaws.count;
+      const std::uint64_t key = position_key<Dim>(s.site, s.spacing);
+      if (material.damage->growth == CrackLaw::benz_asphaug) {
+        const Flaws flaws =
+            draw_flaws(*material.damage, solid_volume, per_body[static_cast<std::size_t>(s.body)], scene.seed, key);
+        p.column(Field::flaw_strain)[i] = flaws.strain;
+        p.column(Field::flaw_exponent)[i] = flaws.exponent;
+        p.column(Field::flaw_count)[i] = flaws.count;
+      } else {
+        p.column(Field::flaw_strain)[i] = draw_weakest_flaw(*material.damage, solid_volume, scene.seed, key);
+      }
     }
   });
   if (p.has(Field::damage)) sim.intact.assign(p.size(), 1.0);

@@ -32,7 +32,7 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
   const bool scalar_cracks = any([](const Material& m) { return m.damage && !m.tensor_damage(); });
   const bool tensor_cracks = any([](const Material& m) { return m.tensor_damage(); });
   const bool coupled = any([](const Material& m) { return m.cuts_pairs(); });
-  const bool remembers = any([](const Material& m) { return m.damage && m.damage->remembers_strain(); });
+  const bool dealt = any([](const Material& m) { return m.damage && m.damage->growth == CrackLaw::benz_asphaug; });
   const bool driven = std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) { return b.driven; });
   const bool continuity = scene.numerics.density == DensityMethod::continuity;
   const bool balsara = holds(scene.numerics.balsara, materials);
@@ -75,12 +75,12 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
   if (bonded) add("bonds", extended({stretch, density}, yields, {plastic_strain}), {bond}, bonds<Dim>);
   if (breaks)
     add("damage",
-        extended(extended(extended({pressure, deviatoric_stress}, grady_kipp, {flaw_strain, flaw_exponent, flaw_count}),
-                          scalar_cracks, {crack}),
-                 tensor_cracks, {damage_tensor, velocity_gradient, smoothing_length}),
-        extended(extended(extended({Field::damage, pressure}, scalar_cracks, {crack_rate}), tensor_cracks,
-                          {damage_tensor, damage_tensor_growth}),
-                 remembers, {strain_history}),
+        extended(extended(extended(extended({pressure, deviatoric_stress, density, mass}, grady_kipp, {flaw_strain}), dealt,
+                                   {flaw_exponent, flaw_count, smoothing_length}),
+                          scalar_cracks, {crack, local_strain}),
+                 tensor_cracks, {damage_tensor, strain_history, velocity_gradient}),
+        extended(extended({Field::damage, pressure}, scalar_cracks, {crack, local_strain}), tensor_cracks,
+                 {damage_tensor, strain_history}),
         ejecta::damage<Dim>);
   add("pair rates",
       extended(extended(extended({position, velocity, smoothing_length, mass, density, pressure, sound_speed}, solid,

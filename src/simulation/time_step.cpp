@@ -12,12 +12,6 @@
 
 namespace ejecta {
 
-namespace {
-/// Of D^(1/3) in a step: cracks that cross a particle within one step unload it in one jump, at a moment that depends
-/// on the step, and its neighbours with it. A particle breaks in five steps or more.
-constexpr double largest_crack_growth = 0.2;
-}  // namespace
-
 template <int Dim>
 TimeStepVote vote_time_step(const Simulation<Dim>& sim) {
   const Particles<Dim>& p = sim.particles;
@@ -31,7 +25,6 @@ TimeStepVote vote_time_step(const Simulation<Dim>& sim) {
   auto crossing = [&](std::size_t i) {
     return tensor ? axes_of<Dim>(p.symmetric(Field::smoothing_metric, i)).shortest : h[i];
   };
-  const bool scalar_cracks = p.has(Field::crack_rate), tensor_cracks = p.has(Field::damage_tensor_growth);
   // One pass over the particles finds the smallest; the reason is worked out for that particle alone.
   auto courant = [&](std::size_t i, double length) {
     const double viscous = numerics.viscosity_alpha * sound[i] + numerics.viscosity_beta * approach[i];
@@ -43,15 +36,8 @@ TimeStepVote vote_time_step(const Simulation<Dim>& sim) {
   auto compression = [&](std::size_t i) {
     return compresses ? 1 / std::abs(p.column(Field::compression_rate)[i]) : never;
   };
-  // Divided by the Courant number that multiplies every vote: a crack's share of the particle has nothing to do with
-  // it.
-  auto cracking = [&](std::size_t i) {
-    const double growth = std::max(scalar_cracks ? p.column(Field::crack_rate)[i] : 0.0,
-                                   tensor_cracks ? p.column(Field::damage_tensor_growth)[i] : 0.0);
-    return growth > 0 ? largest_crack_growth / (numerics.courant * growth) : never;
-  };
   auto shortest = [&](std::size_t i, double length) {
-    return std::min({courant(i, length), acceleration(i, length), compression(i), cracking(i)});
+    return std::min({courant(i, length), acceleration(i, length), compression(i)});
   };
   // Bounds on the axes tell most particles apart from the one sought, and spare them the eigenvalues.
   auto bound = [&](std::size_t i) {
@@ -67,8 +53,7 @@ TimeStepVote vote_time_step(const Simulation<Dim>& sim) {
   const double length = crossing(least.index);
   const std::string_view reason = least.value == courant(least.index, length)        ? "Courant condition"
                                   : least.value == acceleration(least.index, length) ? "acceleration"
-                                  : least.value == compression(least.index)          ? "compression"
-                                                                                     : "crack growth";
+                                                                                     : "compression";
   return {numerics.courant * least.value, reason, least.index};
 }
 

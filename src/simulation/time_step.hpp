@@ -7,7 +7,6 @@ namespace ejecta {
 ///   Courant:      C h / (c + 0.6 (alpha c + beta max|mu|))   [Monaghan 1992, eq. 3.4]
 ///   acceleration: C sqrt(h/|a|)                              [Monaghan 1992, eq. 3.3]
 ///   compression:  C / |(1/rho) drho/dt|
-///   crack growth: 0.2 / |d(D^(1/3))/dt|, whatever C
 template <int Dim>
 TimeStepVote vote_time_step(const Simulation<Dim>& sim);
 

@@ -15,7 +15,7 @@ ALGORITHM = ["neighbours", "density", "equation of state", "strength", "damage",
 COMPONENTS = {"position": 3, "velocity": 3, "acceleration": 3, "velocity_gradient": 9, "deviatoric_stress": 5,
               "stress_rate": 5}
 # Rates are kept twice: the integrator needs those of the step before.
-RATES = {"acceleration", "heating", "density_rate", "stress_rate", "crack_rate"}
+RATES = {"acceleration", "heating", "density_rate", "stress_rate"}
 
 GAS_COLUMNS = """position velocity acceleration mass density specific_energy heating pressure sound_speed
 smoothing_length neighbour_sum approach_speed""".split()
@@ -67,7 +67,7 @@ GRADY_KIPP = material("damage", model="grady_kipp", weibull_m=9.5, weibull_k="1.
 PORES = material("porosity", model="two_power", initial_distension=3.3242857142857143, elastic_pressure="1 MPa",
                  transition_pressure="68 MPa", solid_pressure="213 MPa", reference_distension=4.64,
                  transition_distension=1.90, n1=12, n2=3)
-CRACKS = ("damage", "crack", "crack_rate", "flaw_strain", "flaw_exponent", "flaw_count")
+CRACKS = ("damage", "crack", "local_strain", "flaw_strain")
 
 gas = Case("gas", FOLDER / "gas.toml", {"numerics.density": "summation"},
            adds_stages=("neighbours", "density", "equation of state", "pair rates"), adds_columns=tuple(GAS_COLUMNS))

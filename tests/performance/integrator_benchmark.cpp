@@ -9,14 +9,13 @@ namespace {
 
 /// Every column of a pair (state, rate): the state is read and written; the rate and the one before it are read.
 constexpr int columns_moved(int pair_columns) { return 4 * pair_columns; }
-constexpr int gas_pairs = 3 + 1;               // velocity, energy
-constexpr int rock_pairs = 3 + 1 + 1 + 5 + 1;  // and density, deviatoric stress, crack
+constexpr int gas_pairs = 3 + 1;           // velocity, energy
+constexpr int rock_pairs = 3 + 1 + 1 + 5;  // and density, deviatoric stress
 
 Particles<3> columns(bool rock) {
   std::vector<Field> fields{Field::specific_energy, Field::heating};
   if (rock)
-    fields.insert(fields.end(), {Field::density, Field::density_rate, Field::deviatoric_stress, Field::stress_rate,
-                                 Field::crack, Field::crack_rate});
+    fields.insert(fields.end(), {Field::density, Field::density_rate, Field::deviatoric_stress, Field::stress_rate});
   Particles<3> p;
   p.allocate(400000, fields);
   return p;

@@ -100,18 +100,21 @@ void strength(benchmark::State& state) {
                    share_of(sim, [&](auto i) { return sim.particles.column(Field::plastic_strain)[i] > 0; }));
 }
 
-/// Reads 5 deviators, 3 of flaws, pressure, crack, damage, distension, sound speed, smoothing length; writes pressure,
-/// crack rate, damage and the intact share.
+/// Reads 5 deviators, the weakest flaw, pressure, crack, strain, damage, distension, and where cracks grow sound speed,
+/// mass and density; writes pressure, crack, strain, damage and the intact share.
 void damage(benchmark::State& state) {
   auto& sim = body<3>("pumice", particles);
   fill(sim, Field::deviatoric_stress, -3e6, 3e6);
   fill(sim, Field::pressure, -1e7, 1e7);
   fill(sim, Field::distension, 1, 3.3);
   fill(sim, Field::crack, 0, 0.5);
+  fill(sim, Field::local_strain, 0, 0);
   fill(sim, Field::damage, 0, 0);
   auto measured = measure_stage(state, sim, "damage");
-  measured.bytes(bytes_of_columns(sim, 14 + 4));
-  measured.counter("growing", share_of(sim, [&](auto i) { return sim.particles.column(Field::crack_rate)[i] > 0; }));
+  measured.bytes(bytes_of_columns(sim, 14 + 5));
+  measured.counter("growing", share_of(sim, [&](auto i) {
+                     return sim.particles.column(Field::local_strain)[i] >= sim.particles.column(Field::flaw_strain)[i];
+                   }));
 }
 
 BENCHMARK(ideal_gas)->Name("stage/equation_of_state/3d/ideal_gas")->Unit(benchmark::kMillisecond);

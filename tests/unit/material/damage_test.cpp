@@ -70,7 +70,7 @@ TEST(DrawFlaws, CountAndStrongestFlawAreThoseOfTheWholeTarget) {
     const Flaws f = draw_flaws(basalt, volume, particles, 42, i);
     ASSERT_GE(f.count, 1);
     count += f.count, squares += f.count * f.count;
-    active += active_flaws(probe, f);
+    active += dealt_cracks(f).at(probe);
     if (f.count > 1) {  // the strongest flaw, where all are active, is weaker than the limit of the whole target
       const double strongest = f.strain * std::pow(f.count, 1 / f.exponent);
       ASSERT_LE(expected_weaker(basalt, volume, strongest), mean * (1 + 1e-9));
@@ -135,19 +135,123 @@ TEST(DrawFlaws, HugeConstantsDoNotOverflow) {
   EXPECT_NEAR(weakest, 2.72e-4, 0.7e-4);
 }
 
-TEST(ActiveFlaws, RunFromNoneToAll) {
-  const Flaws f{1e-4, std::log(16.0) / std::log(4.0), 16};  // strongest at 4e-4
-  EXPECT_EQ(active_flaws(0.99e-4, f), 0);
-  EXPECT_EQ(active_flaws(0, f), 0);
-  EXPECT_DOUBLE_EQ(active_flaws(1e-4, f), 1);
-  EXPECT_NEAR(active_flaws(2e-4, f), 4, 1e-12);
-  EXPECT_NEAR(active_flaws(4e-4, f), 16, 1e-12);
-  EXPECT_EQ(active_flaws(1, f), 16);
-  const Flaws single{1e-4, 0, 1};
-  EXPECT_EQ(active_flaws(0.9e-4, single), 0);
-  EXPECT_EQ(active_flaws(1, single), 1);
-  EXPECT_DOUBLE_EQ(crack_limit(2, f), 0.5);
-  EXPECT_DOUBLE_EQ(crack_growth_rate(3, 1800, 1e-3), 5.4e6);
+TEST(DrawWeakestFlaw, FollowsWeibullInParticleAndBody) {
+  std::vector<double> of_particle, of_body;
+  for (int body = 0; body < 400; ++body) {
+    double weakest = 1e300;
+    for (int i = 0; i < 100; ++i) {
+      const double strain = draw_weakest_flaw(basalt, 1e-9, body, i);
+      weakest = std::min(weakest, strain);
+      if (body < 100) of_particle.push_back(expected_weaker(basalt, 1e-9, strain));
+    }
+    of_body.push_back(expected_weaker(basalt, 1e-7, weakest));
+  }
+  EXPECT_LT(distance_from_exponential(of_particle), 1.95);
+  EXPECT_LT(distance_from_exponential(of_body), 1.95);
+}
+
+constexpr Flaws sixteen{1e-4, 2, 16};  // strongest at 4e-4
+
+TEST(OpenCracks, OfDealtFlawsRunFromNoneToAll) {
+  const OpenCracks cracks = dealt_cracks(sixteen);
+  EXPECT_EQ(cracks.at(0.99e-4), 0);
+  EXPECT_EQ(cracks.at(0), 0);
+  EXPECT_DOUBLE_EQ(cracks.at(1e-4), 1);
+  EXPECT_NEAR(cracks.at(2e-4), 4, 1e-12);
+  EXPECT_NEAR(cracks.at(4e-4), 16, 1e-12);
+  EXPECT_NEAR(cracks.at(1), 16, 1e-12);
+  const OpenCracks single = dealt_cracks({1e-4, 0, 1});
+  EXPECT_EQ(single.at(0.9e-4), 0);
+  EXPECT_EQ(single.at(1), 1);
+}
+
+TEST(OpenCracks, OfWeibullFlawsAreOneUntilTheLawSaysMore) {
+  // Three dimensions, m = 3: C = 2 36/(9 4 5) = 0.4; k V = 1e9/0.4.
+  const OpenCracks cracks = weibull_cracks({3, 1e18}, 3, 1e-9 / 0.4, 1e-4);
+  EXPECT_EQ(cracks.at(0.99e-4), 0);
+  EXPECT_EQ(cracks.at(1e-4), 1);
+  EXPECT_EQ(cracks.at(0.99e-3), 1);
+  EXPECT_NEAR(cracks.at(4e-3), 4, 1e-12) << "cube root of 64 cracks";
+  EXPECT_NEAR(cracks.at(4), 4e3, 1e-8) << "there is no strongest flaw";
+  const OpenCracks strong = weibull_cracks({3, 1e18}, 3, 1e-9 / 0.4, 2e-3);
+  EXPECT_EQ(strong.at(1.99e-3), 0);
+  EXPECT_NEAR(strong.at(2e-3), 2, 1e-12);
+  // Plane strain, m = 2: C = 4/6; k V = 1.5e6.
+  EXPECT_NEAR(weibull_cracks({2, 1.5e12}, 2, 1e-6, 1e-4).at(5e-3), 5, 1e-12) << "square root of 25 cracks";
+}
+
+/// The mean of at() by the midpoint rule.
+double mean_by_steps(const OpenCracks& cracks, double before, double after) {
+  const int n = 200000;
+  double sum = 0;
+  for (int k = 0; k < n; ++k) sum += cracks.at(before + (after - before) * (k + 0.5) / n);
+  return sum / n;
+}
+
+TEST(OpenCracks, MeanOverAStepIsTheIntegral) {
+  for (const OpenCracks& cracks :
+       {dealt_cracks(sixteen), dealt_cracks({1e-4, 0, 1}), weibull_cracks(basalt, 3, 1e-9, 2e-4),
+        weibull_cracks(basalt, 3, 1e-9, 2e-3), weibull_cracks({2.63, 1e13}, 2, 1e-6, 1e-5)})
+    for (const double before : {0.0, 0.5e-4, 1.5e-4, 3e-4, 2e-3, 5e-3})
+      for (const double after : {0.0, 0.9e-4, 1.5e-4, 1.50001e-4, 5e-4, 4e-3}) {
+        const double expected = mean_by_steps(cracks, before, after);
+        EXPECT_NEAR(cracks.mean(before, after), expected, 1e-4 * expected + 1e-12) << before << " to " << after;
+        EXPECT_DOUBLE_EQ(cracks.mean(before, after), cracks.mean(after, before));
+      }
+}
+
+TEST(LongerCrack, DoesNotDependOnTheStepWhileTheStrainRisesSteadily) {
+  const OpenCracks cracks = weibull_cracks(basalt, 3, 1e-9, 3e-4);
+  const double end = 1.2e-3;
+  const double once = longer_crack<3>(0.1, 0, end, cracks, 0.4);
+  EXPECT_GT(once, 0.3);
+  EXPECT_LT(once, 1);
+  for (const int steps : {2, 7, 1000}) {
+    double crack = 0.1;
+    for (int k = 0; k < steps; ++k)
+      crack = longer_crack<3>(crack, end * k / steps, end * (k + 1) / steps, cracks, 0.4 / steps);
+    EXPECT_NEAR(crack, once, 1e-9) << steps;
+  }
+}
+
+TEST(LongerCrack, NeverShortensAndStopsAtItsLimit) {
+  const OpenCracks dealt = dealt_cracks(sixteen), cracks = weibull_cracks(basalt, 3, 1e-9, 3e-4);
+  EXPECT_EQ(longer_crack<3>(0.3, 1e-3, 0, cracks, 0), 0.3) << "no time, no growth";
+  EXPECT_EQ(longer_crack<3>(0.3, 0, 2.9e-4, cracks, 100), 0.3) << "no flaw opens";
+  EXPECT_EQ(longer_crack<3>(0.3, 0, 1e-3, cracks, 100), 1);
+  EXPECT_NEAR(longer_crack<3>(0.3, 0, 1.4142135623730951e-4, dealt, 100), 0.5, 1e-12) << "two flaws of sixteen";
+  EXPECT_NEAR(longer_crack<3>(0.3, 1.4142135623730951e-4, 0, dealt, 100), 0.5, 1e-12) << "those of the larger strain";
+  EXPECT_NEAR(longer_crack<2>(0.3, 0, 2e-4, dealt, 100), 0.5, 1e-12) << "four of sixteen, by the square root";
+  EXPECT_EQ(longer_crack<3>(0.6, 0, 1.4142135623730951e-4, dealt, 100), 0.6);
+}
+
+/// Mean damage of particles of any size against Grady & Kipp's integral D = 8 pi c_g^3 k rate^m t^(m+3)/((m+1)(m+2)
+/// (m+3)) in space, 2 pi c_g^2 k rate^m t^(m+2)/((m+1)(m+2)) in the plane, at D = 0.05.
+template <int Dim>
+double mean_damage(double size) {
+  const double m = basalt.weibull_m, speed = 1800, rate = 1e4, target = 0.05;
+  const GradyKipp rock{m, Dim == 3 ? 5e34 : 5e31};
+  const double factor = Dim == 3 ? 8 * std::numbers::pi * std::pow(speed, 3) / ((m + 1) * (m + 2) * (m + 3))
+                                 : 2 * std::numbers::pi * speed * speed / ((m + 1) * (m + 2));
+  const double end = std::pow(target / (factor * rock.weibull_k * std::pow(rate, m)), 1 / (m + Dim));
+  const double volume = std::pow(size, Dim);
+  const double radius =
+      Dim == 3 ? std::cbrt(volume * 3 / (4 * std::numbers::pi)) : std::sqrt(volume / std::numbers::pi);
+  double sum = 0;
+  const int particles = 100000;
+  for (int i = 0; i < particles; ++i)
+    sum += crack_damage<Dim>(longer_crack<Dim>(0, 0, rate * end,
+                                               weibull_cracks(rock, Dim, volume, draw_weakest_flaw(rock, volume, 4, i)),
+                                               speed * end / radius));
+  return sum / particles / target;
+}
+
+TEST(WeibullCracks, DamageOnAverageAsGradyAndKippSayInParticlesOfAnySize) {
+  for (const double size : {0.5e-3, 1e-3, 2e-3, 4e-3}) {
+    // Strength goes as the (m + Dim)-th root of the damage: 40 % of it are 3 %.
+    EXPECT_NEAR(mean_damage<3>(size), 1, 0.4) << size;
+    EXPECT_NEAR(mean_damage<2>(size), 1, 0.4) << size;
+  }
 }
 
 TEST(LocalStrain, OfSolidDamagedAndPorousBody) {

@@ -36,7 +36,7 @@ double least_eigenvalue(const Mat<Dim>& m) {
 }
 double uniform(Random& random) { return std::uniform_real_distribution<double>()(random); }
 
-constexpr Flaws ten_flaws{1e-3, 2, 10};
+const OpenCracks ten_flaws = dealt_cracks({1e-3, 2, 10});
 
 TEST(Rotation, IsThatOfAPointThatMovesWithTheGradient) {
   // v = omega x r about z turns x towards y.
@@ -129,17 +129,28 @@ TEST(GrowCracks, OpenAcrossTheEigenvectorOfPositiveStrain) {
     const Mat<3> q = random_rotation<3>(random);
     const Mat<3> strain = q * Vec<3>(2e-3, -5e-3, 0.5e-3).asDiagonal() * q.transpose();
     Mat<3> damage = Mat<3>::Zero();
-    const double rate = grow_cracks<3>(damage, strain, {ten_flaws, 3, round_metric<3>(0.5)}, 1e-2);
-    EXPECT_NEAR(rate, 4 * 3 / 0.5, 1e-9) << "(2e-3/1e-3)^2 flaws, c_g/R";
-    const double d = std::pow(0.24, 3);
+    const CrackGrowth<3> growth{ten_flaws, 3, round_metric<3>(0.5)};
+    grow_cracks<3>(damage, strain, strain, growth, 1e-2);
+    const double d = std::pow(4 * 3 / 0.5 * 1e-2, 3);  // (2e-3/1e-3)^2 flaws, c_g/R
     EXPECT_NEAR((damage - d * q.col(0) * q.col(0).transpose()).norm(), 0, 1e-12);
-    const double held_up = grow_cracks<3>(damage, strain, {ten_flaws, 3, round_metric<3>(0.5)}, 1);
-    EXPECT_NEAR(held_up, std::cbrt(0.4) - 0.24, 1e-12) << "what took place in one second";
+    grow_cracks<3>(damage, strain, strain, growth, 1);
     EXPECT_NEAR((damage - 0.4 * q.col(0) * q.col(0).transpose()).norm(), 0, 1e-12) << "four flaws of ten are open";
     const Mat<3> open = damage, pressed = -strain;
-    grow_cracks<3>(damage, pressed, {ten_flaws, 3, round_metric<3>(0.5)}, 0);
+    grow_cracks<3>(damage, pressed, pressed, growth, 1);
     EXPECT_EQ(damage, open);
   }
+}
+
+/// Strain that rises within the step opens the flaws one after the other, whatever the step.
+TEST(GrowCracks, FollowTheStrainWithinTheStep) {
+  const Mat<3> strain = Vec<3>(2e-3, -5e-3, 0.5e-3).asDiagonal(), none = Mat<3>::Zero();
+  const CrackGrowth<3> growth{ten_flaws, 3, round_metric<3>(0.5)};
+  Mat<3> once = none, often = none;
+  grow_cracks<3>(once, none, strain, growth, 1e-2);
+  for (int k = 0; k < 100; ++k) grow_cracks<3>(often, k / 100.0 * strain, (k + 1) / 100.0 * strain, growth, 1e-4);
+  // Mean over the step of (strain/1e-3)^2 from 1e-3 to 2e-3: (8 - 1)/3/2.
+  EXPECT_NEAR(once(0, 0), std::pow(7.0 / 6 * 3 / 0.5 * 1e-2, 3), 1e-15);
+  EXPECT_NEAR(often(0, 0), once(0, 0), 1e-12);
 }
 
 TEST(GrowCracks, ReachTheDamageAskedForAcrossAnyDirection) {
@@ -151,7 +162,7 @@ TEST(GrowCracks, ReachTheDamageAskedForAcrossAnyDirection) {
     Mat<3> damage = start;
     const Vec<3> n = q.col(0);
     const double before = std::cbrt(n.dot(start * n));
-    grow_cracks<3>(damage, strain, {ten_flaws, 0.5, round_metric<3>(1)}, 0.01);
+    grow_cracks<3>(damage, strain, strain, {ten_flaws, 0.5, round_metric<3>(1)}, 0.01);
     EXPECT_NEAR(std::cbrt(n.dot(damage * n)), std::min(before + 0.05, 1.0), 1e-12);
   }
 }
@@ -165,9 +176,10 @@ void expect_neither_healing_nor_excess(int histories) {
     for (int k = 0; k < 8; ++k) {
       const Mat<Dim> q = random_rotation<Dim>(random), shape = random_matrix<Dim>(random);
       const Mat<Dim> carried = turned<Dim>(damage, q), metric = shape * shape.transpose() + round_metric<Dim>(1);
-      const Mat<Dim> strain = 2e-3 * symmetric_part<Dim>(random_matrix<Dim>(random));
+      const Mat<Dim> before = 2e-3 * symmetric_part<Dim>(random_matrix<Dim>(random)),
+                     after = 2e-3 * symmetric_part<Dim>(random_matrix<Dim>(random));
       damage = carried;
-      grow_cracks<Dim>(damage, strain, {flaws, 1, metric}, std::pow(10, -4 + 6 * uniform(random)));
+      grow_cracks<Dim>(damage, before, after, {dealt_cracks(flaws), 1, metric}, std::pow(10, -4 + 6 * uniform(random)));
       ASSERT_GE(least_eigenvalue<Dim>(damage - carried), -1e-12) << "history " << history << ", step " << k;
       ASSERT_GE(least_eigenvalue<Dim>(damage), -1e-12);
       ASSERT_LE(largest_eigenvalue<Dim>(damage), 1 + 1e-12);
@@ -189,9 +201,12 @@ void expect_the_same_in_a_turned_frame() {
     const Mat<Dim> first = 3e-3 * symmetric_part<Dim>(random_matrix<Dim>(random)),
                    second = 3e-3 * symmetric_part<Dim>(random_matrix<Dim>(random));
     Mat<Dim> damage = Mat<Dim>::Zero(), seen_turned = damage;
+    Mat<Dim> before = Mat<Dim>::Zero();
     for (const Mat<Dim>& strain : {first, second}) {
-      grow_cracks<Dim>(damage, strain, {ten_flaws, 0.1, metric}, 0.2);
-      grow_cracks<Dim>(seen_turned, turned<Dim>(strain, q), {ten_flaws, 0.1, turned<Dim>(metric, q)}, 0.2);
+      grow_cracks<Dim>(damage, before, strain, {ten_flaws, 0.1, metric}, 0.2);
+      grow_cracks<Dim>(seen_turned, turned<Dim>(before, q), turned<Dim>(strain, q),
+                       {ten_flaws, 0.1, turned<Dim>(metric, q)}, 0.2);
+      before = strain;
     }
     // What is integrated is D^(1/3), in which round-off of D across a whole direction is a crack of length 6e-6.
     EXPECT_NEAR((turned<Dim>(damage, q) - seen_turned).norm(), 0, 3 * std::cbrt(2.2e-16));

@@ -39,9 +39,11 @@ TEST(Stages, PorousRockHasAllItsOwn) {
   EXPECT_EQ(names(sim->stages), (std::vector<std::string>{"neighbours", "equation of state", "strength", "damage",
                                                           "pair rates", "strain rates", "smoothing lengths"}));
   for (const Field f : {deviatoric_stress, stress_rate, plastic_strain, distension, stress_factor, Field::damage, crack,
-                        crack_rate, flaw_strain, flaw_exponent, flaw_count, velocity_gradient, density_rate})
+                        local_strain, flaw_strain, velocity_gradient, density_rate})
     EXPECT_TRUE(sim->particles.has(f)) << info(f).name;
   EXPECT_FALSE(sim->particles.has(Field::shear_switch));
+  EXPECT_FALSE(sim->particles.has(flaw_count));
+  EXPECT_TRUE(start<3>(porous_impact, {"materials.pumice.damage.growth=benz_asphaug"})->particles.has(flaw_count));
 }
 
 TEST(Stages, EachIsThereOnlyOnRequest) {
@@ -60,8 +62,7 @@ TEST(Stages, EachIsThereOnlyOnRequest) {
 TEST(Stages, AMaterialWithoutPoresOrDamageHasNoSuchColumns) {
   const auto sim =
       start<3>(porous_impact, {"materials.pumice.porosity.model=none", "materials.pumice.damage.model=none"});
-  for (const Field f :
-       {distension, stress_factor, Field::damage, crack, crack_rate, flaw_strain, flaw_exponent, flaw_count})
+  for (const Field f : {distension, stress_factor, Field::damage, crack, local_strain, flaw_strain})
     EXPECT_FALSE(sim->particles.has(f)) << info(f).name;
   EXPECT_TRUE(sim->particles.has(deviatoric_stress));
 }
