@@ -26,7 +26,8 @@ class PairPassOf final : public PairPass<Dim> {
   void density(Particles<Dim>& particles, const PairLists<Dim>& lists) override;
   void rates(Particles<Dim>& particles, const PairLists<Dim>& lists, std::span<const double> intact) override;
   std::size_t bytes() const override {
-    return records_.capacity() * sizeof(T) + around_.sums.capacity() * sizeof(around_.sums[0]);
+    return (records_.capacity() + touches_.capacity()) * sizeof(T) + mixed_.capacity() +
+           around_.sums.capacity() * sizeof(around_.sums[0]);
   }
 
  private:
@@ -40,27 +41,32 @@ class PairPassOf final : public PairPass<Dim> {
   RecordScales scales() const {
     return {K::template norm<Dim>, K::support, K::reduced_scale, K::reduced_over_r, settings_.length_unit};
   }
-  /// Fetches the record that the next batch will want.
-  void prefetch(std::uint32_t index) const {
-    constexpr std::size_t line = 64 / sizeof(T);
+  /// Fetches what the next batch will want: `values` from the start of its records on.
+  void prefetch(std::uint32_t index, int values) const {
+    constexpr int line = 64 / sizeof(T);
     const T* record = records_.data() + static_cast<std::size_t>(index) * R::size;
-    for (std::size_t k = 0; k < R::size; k += line) __builtin_prefetch(record + k);
+    for (int k = 0; k < values; k += line) __builtin_prefetch(record + k);
   }
-  template <class Count, class Body>
+  /// Mixed: members or candidates of several pieces.
+  template <bool Mixed, class Count, class Body>
   void for_partners(const Members& members, const Support& support, std::span<const std::uint32_t> candidates,
-                    Count&& count, Body&& body) const;
-  void feel(const Cluster& c, std::span<const std::uint32_t> candidates);
+                    int values, Count&& count, Body&& body) const;
+  void feel(std::size_t cluster, const PairLists<Dim>& lists);
+  template <bool Mixed>
   void look_around(Particles<Dim>& particles, const Cluster& c, std::span<const std::uint32_t> candidates);
+  template <bool Mixed>
   void cluster_rates(Particles<Dim>& particles, const Cluster& c, std::span<const std::uint32_t> candidates) const;
   void cluster_density(Particles<Dim>& particles, const Cluster& c, std::span<const std::uint32_t> candidates) const;
   template <class Body>
   void for_clusters(const PairLists<Dim>& lists, Body&& body) const {
     parallel_blocks(lists.clusters().size(), 16, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t k = begin; k < end; ++k) body(lists.clusters()[k], lists.candidates(k));
+      for (std::size_t k = begin; k < end; ++k) body(k);
     });
   }
+
   PairPassSettings settings_;
-  std::vector<T> records_;
+  std::vector<T> records_, touches_;  ///< touches_: empty where nothing can touch
+  std::vector<char> mixed_;           ///< by cluster
   Surroundings<Dim> around_;
 };
 
@@ -69,9 +75,9 @@ class PairPassOf final : public PairPass<Dim> {
 /// within reach is kept as bits in a register: an address made of it would hold up the loads that follow.
 /// Calls count(pair) for every candidate and body(partner) for those within reach.
 template <class T, int Dim, PassKind Kind, class K>
-template <class Count, class Body>
+template <bool Mixed, class Count, class Body>
 void PairPassOf<T, Dim, Kind, K>::for_partners(const Members& members, const Support& support,
-                                               std::span<const std::uint32_t> candidates, Count&& count,
+                                               std::span<const std::uint32_t> candidates, int values, Count&& count,
                                                Body&& body) const {
   constexpr std::size_t batch = 32;
   Partner partners[batch];
@@ -79,11 +85,12 @@ void PairPassOf<T, Dim, Kind, K>::for_partners(const Members& members, const Sup
     const std::size_t end = std::min(begin + batch, candidates.size());
     std::uint64_t reached = 0;
     for (std::size_t place = begin; place < end; ++place) {
-      prefetch(candidates[std::min(place + batch, candidates.size() - 1)]);
+      prefetch(candidates[std::min(place + batch, candidates.size() - 1)], values);
       Partner& p = partners[place - begin];
       p.record = records_.data() + static_cast<std::size_t>(candidates[place]) * R::size;
+      if constexpr (Mixed) p.touch = touches_.data() + static_cast<std::size_t>(candidates[place]) * R::touch_size;
       V between[Dim], distance2;  // where the kernel is taken
-      members.meet(p, between, distance2);
+      members.template meet<Mixed>(p, between, distance2);
       p.pair = support.pair(between, distance2, p.record);
       count(p.pair);
       reached |= std::uint64_t{simd::any_less(V{}, p.pair.reach())} << (place - begin);
@@ -96,29 +103,43 @@ template <class T, int Dim, PassKind Kind, class K>
 void PairPassOf<T, Dim, Kind, K>::rates(Particles<Dim>& particles, const PairLists<Dim>& lists,
                                         std::span<const double> intact) {
   const PairRules& rules = settings_.rules;
+  const auto& clusters = lists.clusters();
   R::pack(particles, lists.images(), rules, scales(), records_);
+  mixed_.assign(clusters.size(), 0);
   if constexpr (Kind.stress) {
     around_.sums.resize(particles.size());
     if (settings_.touches) {
-      for_clusters(lists, [&](const Cluster& c, auto candidates) { feel(c, candidates); });
-      R::pack_touch(particles, lists.images(), rules, around_, records_);
+      for_clusters(lists, [&](std::size_t k) { feel(k, lists); });
+      R::pack_touch(particles, lists.images(), rules, around_, touches_);
     }
-    for_clusters(lists, [&](const Cluster& c, auto candidates) { look_around(particles, c, candidates); });
+    for_clusters(lists, [&](std::size_t k) {
+      if (mixed_[k])
+        look_around<true>(particles, clusters[k], lists.candidates(k));
+      else if (around_.corrects)
+        look_around<false>(particles, clusters[k], lists.candidates(k));
+    });
   }
-  R::pack_stress(particles, lists.images(), rules, intact, around_, records_);
-  for_clusters(lists, [&](const Cluster& c, auto candidates) { cluster_rates(particles, c, candidates); });
+  R::pack_stress(particles, lists.images(), rules, intact, around_, records_, touches_);
+  for_clusters(lists, [&](std::size_t k) {
+    if constexpr (Kind.stress)
+      if (mixed_[k]) return cluster_rates<true>(particles, clusters[k], lists.candidates(k));
+    cluster_rates<false>(particles, clusters[k], lists.candidates(k));
+  });
 }
 
 /// Where other pieces are, and how near.
 template <class T, int Dim, PassKind Kind, class K>
-void PairPassOf<T, Dim, Kind, K>::feel(const Cluster& c, std::span<const std::uint32_t> candidates) {
+void PairPassOf<T, Dim, Kind, K>::feel(std::size_t cluster, const PairLists<Dim>& lists) {
+  const Cluster& c = lists.clusters()[cluster];
+  const auto candidates = lists.candidates(cluster);
   const Members members(c, records_.data());
   for (std::size_t i = c.begin; i < c.end; ++i) around_.sums[i] = {};
-  if (!members.mixed(candidates)) return;
+  mixed_[cluster] = members.mixed(candidates);
+  if (!mixed_[cluster]) return;
   const Support support{members.loader()};
   V outward[Dim] = {}, occupied{};
-  for_partners(
-      members, support, candidates, [](const auto&) {},
+  for_partners<true>(
+      members, support, candidates, R::v, [](const auto&) {},
       [&](const Partner& p) {
         if (!p.foreign) return;
         V gradient[Dim], w, unused;
@@ -137,43 +158,49 @@ void PairPassOf<T, Dim, Kind, K>::feel(const Cluster& c, std::span<const std::ui
 
 /// Moment matrices, and the stretch of bonds.
 template <class T, int Dim, PassKind Kind, class K>
+template <bool Mixed>
 void PairPassOf<T, Dim, Kind, K>::look_around(Particles<Dim>& particles, const Cluster& c,
                                               std::span<const std::uint32_t> candidates) {
   const Members members(c, records_.data());
   const Support support{members.loader()};
-  const auto touch = members.touch(settings_.friction);
-  TensorSum moment, touched;
+  [[maybe_unused]] pair_detail::Touch<T, V, R, Dim> touch;
+  if constexpr (Mixed) touch = members.touch(touches_.data(), settings_.friction);
+  constexpr bool along = !Kind.tensor && !Kind.bonded;  // the gradient is along the pair
+  std::conditional_t<along, pair_detail::SymmetricSum<V, Dim>, TensorSum> moment;
+  [[maybe_unused]] TensorSum touched;
   V stretch2 = V{} + T(1);
-  for_partners(
-      members, support, candidates, [](const auto&) {},
+  for_partners<Mixed>(
+      members, support, candidates, R::v, [](const auto&) {},
       [&](const Partner& p) {
         const T volume = p.record[R::volume];
         V gradient[Dim], weighted[Dim];
         p.kernel_gradient(gradient);
         for (int b = 0; b < Dim; ++b) weighted[b] = volume * gradient[b];
-        if (p.foreign) [[unlikely]] {
-          const V own = members.own(p);
-          V others[Dim], own_share, other_share;
-          touch.shares(p, own_share, other_share);
-          const V weight = touch.weight(p, own) * own_share;
-          for (int b = 0; b < Dim; ++b) {
-            others[b] = weight * weighted[b];
-            weighted[b] *= own;
+        if constexpr (Mixed)
+          if (p.foreign) {
+            const V own = members.own(p);
+            V others[Dim], own_share, other_share;
+            touch.shares(p, own_share, other_share);
+            const V weight = touch.weight(p, own) * own_share;
+            for (int b = 0; b < Dim; ++b) {
+              others[b] = weight * weighted[b];
+              weighted[b] *= own;
+            }
+            touched.add(p.dx, others);
           }
-          touched.add(p.dx, others);
-        }
         moment.add(p.dx, weighted);
         if constexpr (Kind.bonded) stretch2 = simd::max(stretch2, members.stretch2(p));
       });
   for (std::size_t i = c.begin; i < c.end; ++i) {
     const int k = static_cast<int>(i - c.begin);
     around_.sums[i].moment = moment.of_lane(k);
-    around_.sums[i].touched = touched.of_lane(k);
+    if constexpr (Mixed) around_.sums[i].touched = touched.of_lane(k);
     if constexpr (Kind.bonded) particles.column(Field::stretch)[i] = std::sqrt(static_cast<double>(stretch2[k]));
   }
 }
 
 template <class T, int Dim, PassKind Kind, class K>
+template <bool Mixed>
 void PairPassOf<T, Dim, Kind, K>::cluster_rates(Particles<Dim>& particles, const Cluster& c,
                                                 std::span<const std::uint32_t> candidates) const {
   const Members members(c, records_.data());
@@ -188,13 +215,13 @@ void PairPassOf<T, Dim, Kind, K>::cluster_rates(Particles<Dim>& particles, const
   const V density = load(R::density), sound_speed = load(R::sound_speed), viscosity_factor = load(R::viscosity_factor);
   const T half_alpha = static_cast<T>(0.5 * settings_.viscosity_alpha), beta = static_cast<T>(settings_.viscosity_beta);
   [[maybe_unused]] pair_detail::Touch<T, V, R, Dim> touch;
-  if constexpr (Kind.stress) touch = members.touch(settings_.friction);
+  if constexpr (Mixed) touch = members.touch(touches_.data(), settings_.friction);
 
   simd::WideSum<T> acceleration[Dim], heat, friction_heat;        // heat: twice what the pairs give
   [[maybe_unused]] TensorSum gradient, touched, cut, cut_moment;  // cut: the share that cracks take off
   V divergence{}, moment{}, fastest{};
-  for_partners(
-      members, support, candidates, [&](const auto& pair) { moment += pair.moment; },
+  for_partners<Mixed>(
+      members, support, candidates, R::size, [&](const auto& pair) { moment += pair.moment; },
       [&](const Partner& p) {
         const T* j = p.record;
         const T volume = j[R::volume];
@@ -202,59 +229,56 @@ void PairPassOf<T, Dim, Kind, K>::cluster_rates(Particles<Dim>& particles, const
         for (int a = 0; a < Dim; ++a) dv[a] = j[R::v + a] - v[a];
         p.kernel_gradient(kernel_gradient);
         const V along = pair_detail::dot(dv, p.dx), central = p.pair.central(p.dx, p.r2);
-        V closing = along;
-        if constexpr (Kind.stress)
-          if (p.foreign) [[unlikely]]
-            closing = touch.closing(p, dv, along, members.own(p));
+        V closing = along, limiter = viscosity_factor + j[R::viscosity_factor];
+        [[maybe_unused]] V own, uneven[Dim], own_share;  // uneven: what the stress of i gives more than that of j
+        if constexpr (Mixed)
+          if (p.foreign) {
+            own = members.own(p);
+            closing = touch.closing(p, dv, along, own);
+            limiter = own > T(0) ? limiter : V(touch.weight(p, own) * touch.softness(p, sound_speed));
+          }
         const V mu = support.approach(p.pair, p.r2, closing, j);
         const V lighter = T(2) * simd::min(density, V{} + j[R::density]);
         const V mean_density = simd::min(V(T(0.5) * (density + j[R::density])), lighter);
-        V limiter = viscosity_factor + j[R::viscosity_factor];
-        V ours[R::stresses], theirs[R::stresses];
-        for (int s = 0; s < R::stresses; ++s) {
-          ours[s] = stress[s];
-          theirs[s] = V{} + j[R::stress + s];
-        }
-        [[maybe_unused]] V own, own_share;
-        if constexpr (Kind.stress)
-          if (p.foreign) [[unlikely]] {
-            own = members.own(p);
-            const V weight = touch.weight(p, own);
-            V other_share;
-            touch.shares(p, own_share, other_share);
-            for (int s = 0; s < R::stresses; ++s) {
-              ours[s] = own > T(0) ? ours[s] : V(weight * own_share * touch.press[s]);
-              theirs[s] = own > T(0) ? theirs[s] : V(weight * other_share * j[R::press + s]);
-            }
-            own_share *= weight;
-            limiter = own > T(0) ? limiter : V(weight * touch.softness(p, sound_speed));
-          }
         const V viscosity =
             limiter * mean_density * (mu * (beta * mu - half_alpha * (sound_speed + j[R::sound_speed])));
-        V total[R::stresses];
-        for (int s = 0; s < R::stresses; ++s) total[s] = ours[s] + theirs[s];
-        pair_detail::contract<Kind.stress, Dim>(total, kernel_gradient, force);
-        for (int a = 0; a < Dim; ++a) force[a] -= viscosity * central * p.dx[a];
+        if (Mixed && p.foreign) {
+          if constexpr (Mixed) {
+            V ours[R::stresses], theirs[R::stresses], other_share;
+            touch.shares(p, own_share, other_share);
+            own_share *= touch.weight(p, own);
+            other_share *= touch.weight(p, own);
+            for (int s = 0; s < R::stresses; ++s) {
+              ours[s] = own > T(0) ? stress[s] : V(own_share * touch.press[s]);
+              theirs[s] = own > T(0) ? V{} + j[R::stress + s] : V(other_share * p.touch[R::press + s]);
+            }
+            pair_detail::contract<true, Dim>(ours, theirs, kernel_gradient, force);
+            if constexpr (R::split) pair_detail::contract<true, Dim, -1>(ours, theirs, kernel_gradient, uneven);
+          }
+        } else {
+          pair_detail::contract<Kind.stress, Dim>(stress, j + R::stress, kernel_gradient, force);
+          if constexpr (R::split)
+            pair_detail::contract<Kind.stress, Dim, -1>(stress, j + R::stress, kernel_gradient, uneven);
+        }
+        const V push = viscosity * central;
+        for (int a = 0; a < Dim; ++a) force[a] -= push * p.dx[a];
         if constexpr (R::split) {
           // Half of the work of the very force that acts, and what the two stresses differ by: the first is the same
           // number for j, the second its negative, so that no rounding is left between work and heat.
-          V difference[R::stresses], uneven[Dim];
-          for (int s = 0; s < R::stresses; ++s) difference[s] = ours[s] - theirs[s];
-          pair_detail::contract<Kind.stress, Dim>(difference, kernel_gradient, uneven);
           for (int a = 0; a < Dim; ++a) heat.add_product(volume, force[a], dv[a]);
           heat.add(volume, pair_detail::dot(uneven, dv));
         } else {
-          heat.add(-volume, V(viscosity * central * along));
+          heat.add(-volume, V(push * along));
         }
-        if constexpr (Kind.stress)
-          if (touch.friction > 0 && p.foreign) [[unlikely]]
+        if constexpr (Mixed)
+          if (p.foreign && touch.friction > 0)
             friction_heat.add(volume, touch.rub(p, dv, own, force, V(central * simd::square_root(p.r2))));
         for (int a = 0; a < Dim; ++a) acceleration[a].add(volume, force[a]);
         if constexpr (Kind.gradient) {
           V weighted[Dim];
           for (int b = 0; b < Dim; ++b) weighted[b] = volume * kernel_gradient[b];
-          if constexpr (Kind.stress)
-            if (p.foreign) [[unlikely]] {
+          if constexpr (Mixed)
+            if (p.foreign) {
               V others[Dim];
               for (int b = 0; b < Dim; ++b) {
                 others[b] = own > T(0) ? V{} : V(own_share * weighted[b]);
@@ -294,12 +318,13 @@ void PairPassOf<T, Dim, Kind, K>::cluster_rates(Particles<Dim>& particles, const
       if constexpr (Kind.stress) {
         const auto& sums = around_.sums[i];
         L = around_.correction(sums.moment).gradient(raw);
-        if (!sums.touched.isZero(0)) {
-          const Mat<Dim> others = touched.of_lane(k);
-          const Mat<Dim> all = around_.correction(sums.moment + sums.touched).gradient(raw + others);
-          L = touching_gradient<Dim>(L, all, sums.normal(), touch.pressed(k));
-          work += pair_detail::double_contract<true, Dim>(touch.press, k, others);
-        }
+        if constexpr (Mixed)
+          if (!sums.touched.isZero(0)) {
+            const Mat<Dim> others = touched.of_lane(k);
+            const Mat<Dim> all = around_.correction(sums.moment + sums.touched).gradient(raw + others);
+            L = touching_gradient<Dim>(L, all, sums.normal(), touch.pressed(k));
+            work += pair_detail::double_contract<true, Dim>(touch.press, k, others);
+          }
       }
       pair_detail::store(particles, Field::velocity_gradient, i, Mat<Dim>(per_unit * L));
       if constexpr (Kind.coupled)
@@ -325,7 +350,7 @@ void PairPassOf<T, Dim, Kind, K>::cluster_rates(Particles<Dim>& particles, const
 template <class T, int Dim, PassKind Kind, class K>
 void PairPassOf<T, Dim, Kind, K>::density(Particles<Dim>& particles, const PairLists<Dim>& lists) {
   R::pack(particles, lists.images(), settings_.rules, scales(), records_);
-  for_clusters(lists, [&](const Cluster& c, auto candidates) { cluster_density(particles, c, candidates); });
+  for_clusters(lists, [&](std::size_t k) { cluster_density(particles, lists.clusters()[k], lists.candidates(k)); });
 }
 
 template <class T, int Dim, PassKind Kind, class K>
@@ -339,7 +364,7 @@ void PairPassOf<T, Dim, Kind, K>::cluster_density(Particles<Dim>& particles, con
     Partner p;
     p.record = records_.data() + static_cast<std::size_t>(index) * R::size;
     V between[Dim], distance2, w, moment;
-    members.meet(p, between, distance2);
+    members.template meet<false>(p, between, distance2);
     support.value(between, distance2, w, moment);
     number.add(1, w);
     sum += moment;

@@ -162,13 +162,14 @@ void PairRecord<T, Dim, Kind>::pack(const Particles<Dim>& particles, const std::
 template <class T, int Dim, RecordKind Kind>
 void PairRecord<T, Dim, Kind>::pack_touch(const Particles<Dim>& particles, const std::vector<Image>& images,
                                           const PairRules& rules, const Surroundings<Dim>& around,
-                                          std::vector<T>& records) {
+                                          std::vector<T>& touches) {
   using R = PairRecord;
-  const std::size_t n = particles.size();
+  const std::size_t n = particles.size(), needed = (n + images.size()) * R::touch_size;
+  if (touches.size() < needed) touches.resize(needed + needed / 8);
   const auto h = particles.column(Field::smoothing_length);
   const auto body = particles.label(Label::body);
   parallel_for(0, n, [&](std::size_t i) {
-    T* r = records.data() + i * R::size;
+    T* r = touches.data() + i * R::touch_size;
     const auto& sums = around.sums[i];
     const Vec<Dim> normal = sums.normal();
     const double size = rules.sizes[static_cast<std::size_t>(body[i])];
@@ -177,8 +178,8 @@ void PairRecord<T, Dim, Kind>::pack_touch(const Particles<Dim>& particles, const
   });
   for (std::size_t k = 0; k < images.size(); ++k) {
     const Image& image = images[k];
-    T* r = records.data() + (n + k) * R::size;
-    std::copy_n(records.data() + image.source * R::size + R::touching, Dim + 1, r + R::touching);
+    T* r = touches.data() + (n + k) * R::touch_size;
+    std::copy_n(touches.data() + image.source * R::touch_size, Dim + 1, r);
     for (int a = 0; a < Dim; ++a)
       if (image.mirror[a] != 0) r[R::normal + a] *= -1;
   }
@@ -187,7 +188,8 @@ void PairRecord<T, Dim, Kind>::pack_touch(const Particles<Dim>& particles, const
 template <class T, int Dim, RecordKind Kind>
 void PairRecord<T, Dim, Kind>::pack_stress(const Particles<Dim>& particles, const std::vector<Image>& images,
                                            const PairRules& rules, std::span<const double> intact,
-                                           const Surroundings<Dim>& around, std::vector<T>& records) {
+                                           const Surroundings<Dim>& around, std::vector<T>& records,
+                                           std::vector<T>& touches) {
   using R = PairRecord;
   const std::size_t n = particles.size();
   const auto pressure = particles.column(Field::pressure);
@@ -216,7 +218,9 @@ void PairRecord<T, Dim, Kind>::pack_stress(const Particles<Dim>& particles, cons
       for (int a = 0; a < Dim; ++a)
         for (int b = 0; b < Dim; ++b) {
           r[R::stress + a * Dim + b] = static_cast<T>(own(a, b));
-          r[R::press + a * Dim + b] = static_cast<T>(touched(a, b));
+          if (!touches.empty())
+            touches[i * R::touch_size + static_cast<std::size_t>(R::press + a * Dim + b)] =
+                static_cast<T>(touched(a, b));
         }
     }
   });
@@ -226,12 +230,13 @@ void PairRecord<T, Dim, Kind>::pack_stress(const Particles<Dim>& particles, cons
     T* r = records.data() + (n + k) * R::size;
     std::copy_n(source + R::stress, R::stresses, r + R::stress);
     if constexpr (Kind.stress) {
-      std::copy_n(source + R::press, R::stresses, r + R::press);
-      for (int a = 0; a < Dim; ++a) {
-        if (image.mirror[a] == 0) continue;
-        mirror_tensor<Dim>(r + R::stress, a);
-        mirror_tensor<Dim>(r + R::press, a);
-      }
+      for (int a = 0; a < Dim; ++a)
+        if (image.mirror[a] != 0) mirror_tensor<Dim>(r + R::stress, a);
+      if (touches.empty()) continue;
+      T* t = touches.data() + (n + k) * R::touch_size + R::press;
+      std::copy_n(touches.data() + image.source * R::touch_size + R::press, R::stresses, t);
+      for (int a = 0; a < Dim; ++a)
+        if (image.mirror[a] != 0) mirror_tensor<Dim>(t, a);
     }
   }
 }

@@ -68,27 +68,31 @@ template <class T, int Dim, RecordKind Kind>
 struct PairRecord {
   static constexpr bool split = sizeof(T) == sizeof(float);
   static constexpr int stresses = Kind.stress ? Dim * Dim : 1;
+  // What the first pass reads comes first: one cache line.
   static constexpr int x = 0;
   static constexpr int x_low = x + Dim;                ///< only if split
-  static constexpr int v = x_low + (split ? Dim : 0);  ///< velocity
-  static constexpr int h = v + Dim;                    ///< a twentieth of it, unless tensor
+  static constexpr int h = x_low + (split ? Dim : 0);  ///< a twentieth of it, unless tensor
   static constexpr int reach_reciprocal = h + 1;       ///< 1/(support h), unless tensor
-  static constexpr int metric = v + Dim;               ///< G = H H, if tensor
-  static constexpr int slope_norm = v + Dim + (Kind.tensor ? symmetric_size<Dim> : 2);
-  static constexpr int volume = slope_norm + 1;  ///< V = m/rho
-  static constexpr int density = volume + 1;     ///< rho
-  static constexpr int sound_speed = density + 1;
-  static constexpr int viscosity_factor = sound_speed + 1;     ///< half of it
-  static constexpr int stress = viscosity_factor + 1;          ///< T (gradient_correction.hpp), or -P alone [Pa]
-  static constexpr int piece = stress + stresses;              ///< with stress
+  static constexpr int metric = h;                     ///< G = H H, if tensor
+  static constexpr int slope_norm = h + (Kind.tensor ? symmetric_size<Dim> : 2);
+  static constexpr int volume = slope_norm + 1;                ///< V = m/rho
+  static constexpr int piece = volume + 1;                     ///< with stress
   static constexpr int place = piece + (Kind.stress ? 1 : 0);  ///< at the start, if bonded
   static constexpr int place_low = place + (Kind.bonded ? Dim : 0);
   static constexpr int bond = place_low + (Kind.bonded && split ? Dim : 0);  ///< support h of a bonded particle, else 0
-  static constexpr int damage = bond + (Kind.bonded ? 1 : 0);                ///< damage tensor, if coupled
-  static constexpr int touching = damage + (Kind.coupled ? symmetric_size<Dim> : 0);  ///< other pieces, 0 to 1
-  static constexpr int normal = touching + (Kind.stress ? 1 : 0);  ///< unit vector towards them, or 0
-  static constexpr int press = normal + (Kind.stress ? Dim : 0);   ///< T that acts on them [Pa]
-  static constexpr int size = press + (Kind.stress ? stresses : 0);
+  static constexpr int v = bond + (Kind.bonded ? 1 : 0);                     ///< velocity
+  static constexpr int density = v + Dim;                                    ///< rho
+  static constexpr int sound_speed = density + 1;
+  static constexpr int viscosity_factor = sound_speed + 1;  ///< half of it
+  static constexpr int stress = viscosity_factor + 1;       ///< T (gradient_correction.hpp), or -P alone [Pa]
+  static constexpr int damage = stress + stresses;          ///< damage tensor, if coupled
+  static constexpr int size = damage + (Kind.coupled ? symmetric_size<Dim> : 0);
+
+  // A record of its own, for touching pieces only.
+  static constexpr int touching = 0;          ///< how far other pieces are touched, 0 to 1
+  static constexpr int normal = 1;            ///< unit vector towards them, or 0
+  static constexpr int press = normal + Dim;  ///< T' that acts on them [Pa]
+  static constexpr int touch_size = press + stresses;
 
   /// Fills one record for each particle, then one for each image, but for stress and what touches other pieces.
   /// Reads position, velocity, smoothing_length or smoothing_metric, mass, density, sound_speed, and where they exist
@@ -96,14 +100,16 @@ struct PairRecord {
   static void pack(const Particles<Dim>& particles, const std::vector<Image>& images, const PairRules& rules,
                    const RecordScales& scales, std::vector<T>& records);
 
-  /// Fills in touching and normal.
+  /// Fills touch records, but for the stress.
   static void pack_touch(const Particles<Dim>& particles, const std::vector<Image>& images, const PairRules& rules,
-                         const Surroundings<Dim>& around, std::vector<T>& records);
+                         const Surroundings<Dim>& around, std::vector<T>& touches);
 
   /// Fills in the stress that acts on the partners. Reads pressure and where they exist deviatoric_stress and
   /// damage_tensor. `intact` is the fraction of the deviator that damage leaves (empty: all of it).
+  /// `touches` may be empty.
   static void pack_stress(const Particles<Dim>& particles, const std::vector<Image>& images, const PairRules& rules,
-                          std::span<const double> intact, const Surroundings<Dim>& around, std::vector<T>& records);
+                          std::span<const double> intact, const Surroundings<Dim>& around, std::vector<T>& records,
+                          std::vector<T>& touches);
 };
 
 /// The power of two just below the length.

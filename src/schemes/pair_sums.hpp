@@ -14,16 +14,14 @@ V dot(const V (&a)[Dim], const V (&b)[Dim]) {
   return sum;
 }
 
-/// (T . g)_a with T stored row by row, or one number for an isotropic stress.
-template <bool Stress, int Dim, class Tensor, class V>
-void contract(const Tensor& t, const V (&g)[Dim], V (&f)[Dim]) {
+/// ((A + Sign B) . g)_a with tensors stored row by row, or one number each for isotropic stresses.
+template <bool Stress, int Dim, int Sign = 1, class TensorA, class TensorB, class V>
+void contract(const TensorA& A, const TensorB& B, const V (&g)[Dim], V (&f)[Dim]) {
+  const auto both = [&](int k) { return Sign > 0 ? V(A[k] + B[k]) : V(A[k] - B[k]); };
   for (int a = 0; a < Dim; ++a) {
-    if constexpr (Stress) {
-      f[a] = t[a * Dim] * g[0];
-      for (int b = 1; b < Dim; ++b) f[a] += t[a * Dim + b] * g[b];
-    } else {
-      f[a] = t[0] * g[a];
-    }
+    f[a] = both(Stress ? a * Dim : 0) * g[Stress ? 0 : a];
+    if constexpr (Stress)
+      for (int b = 1; b < Dim; ++b) f[a] += both(a * Dim + b) * g[b];
   }
 }
 
@@ -64,6 +62,23 @@ struct TensorSum {
   }
 };
 
+/// Sum over partners of a b^T where b is along a.
+template <class V, int Dim>
+struct SymmetricSum {
+  V sum[symmetric_size<Dim>] = {};
+  void add(const V (&a)[Dim], const V (&b)[Dim]) {
+    for (int r = 0, k = Dim; r < Dim; ++r) {
+      sum[r] += a[r] * b[r];
+      for (int c = r + 1; c < Dim; ++c, ++k) sum[k] += a[r] * b[c];
+    }
+  }
+  Mat<Dim> of_lane(int lane) const {
+    Symmetric<Dim> m;
+    for (int k = 0; k < symmetric_size<Dim>; ++k) m[k] = static_cast<double>(sum[k][lane]);
+    return matrix_of<Dim>(m);
+  }
+};
+
 template <int Dim>
 void store(Particles<Dim>& particles, Field field, std::size_t i, const Mat<Dim>& m) {
   for (int a = 0; a < Dim; ++a)
@@ -83,8 +98,8 @@ template <class T, class V, int Dim, RecordKind Kind, class Pair>
 struct Partner : Bond<V, Dim, Kind.bonded> {
   V dx[Dim], r2;  ///< x_j - x_i
   Pair pair;
-  const T* record;
-  bool foreign;  ///< in some lane of another piece; only with stress
+  const T *record, *touch;  ///< touch: only in mixed clusters
+  bool foreign;             ///< in some lane of another piece; only in mixed clusters
 
   void kernel_gradient(V (&g)[Dim]) const {
     if constexpr (Kind.bonded)
@@ -109,7 +124,7 @@ struct Touch {
   /// How far a pair of different pieces touches; 0 within a piece.
   template <class Partner>
   V weight(const Partner& p, V own) const {
-    return (T(1) - own) * simd::max(touching, V{} + p.record[R::touching]);
+    return (T(1) - own) * simd::max(touching, V{} + p.touch[R::touching]);
   }
   /// What i feels of j and j of i, by the impedances rho c of both, 2 in all: as where two waves meet, the softer one
   /// decides what stress there is at the contact. A solid hardly notices the gas beside it, which feels it as a wall.
@@ -157,7 +172,7 @@ struct Touch {
   /// Normal of the contact, from i to j: the mean of what both see.
   template <class Partner>
   V mean_normal(const Partner& p, V (&n)[Dim]) const {
-    for (int a = 0; a < Dim; ++a) n[a] = normal[a] - p.record[R::normal + a];
+    for (int a = 0; a < Dim; ++a) n[a] = normal[a] - p.touch[R::normal + a];
     return dot(n, n);
   }
 };
@@ -182,24 +197,25 @@ struct Members {
   }
 
   /// load(k): value k of the record of every member.
-  auto loader() const {
-    return [this](int k) {
+  auto loader() const { return loader(records, R::size); }
+  auto loader(const T* of, std::size_t size) const {
+    return [this, of, size](int k) {
       V v{};
       for (int lane = 0; lane < simd::lanes<T>; ++lane) {
         const std::size_t i = std::min<std::size_t>(cluster.begin + static_cast<std::size_t>(lane), cluster.end - 1);
-        v[lane] = records[i * R::size + static_cast<std::size_t>(k)];
+        v[lane] = of[i * size + static_cast<std::size_t>(k)];
       }
       return v;
     };
   }
 
   /// Looks at the partner of p.record: `between` is the separation at which the kernel is taken, and its square.
-  template <class Partner>
+  template <bool Mixed, class Partner>
   void meet(Partner& p, V (&between)[Dim], V& distance2) const {
     const T* j = p.record;
     separation(x, x_low, j, R::x, R::x_low, p.dx);
     p.r2 = dot(p.dx, p.dx);
-    if constexpr (Kind.stress) p.foreign = any_differs(piece, j[R::piece]);
+    if constexpr (Mixed) p.foreign = any_differs(piece, j[R::piece]);
     if constexpr (Kind.bonded) {
       separation(place, place_low, j, R::place, R::place_low, between);
       const V same = piece == V{} + j[R::piece] ? V{} + T(1) : V{}, R2 = dot(between, between);
@@ -216,15 +232,15 @@ struct Members {
       distance2 = p.r2;
     }
   }
-  /// Whether any of the candidates may be foreign.
+  /// Whether any of the candidates may be of another piece.
   bool mixed(std::span<const std::uint32_t> candidates) const {
     if constexpr (Kind.bonded) return true;
-    if constexpr (!Kind.stress) return false;
-    const T first = records[cluster.begin * R::size + R::piece];
+    const auto piece_of = [&](std::size_t i) { return records[i * R::size + R::piece]; };
+    const T first = piece_of(cluster.begin);
     for (std::size_t i = cluster.begin; i < cluster.end; ++i)
-      if (records[i * R::size + R::piece] != first) return true;
+      if (piece_of(i) != first) return true;
     for (const std::uint32_t j : candidates)
-      if (records[static_cast<std::size_t>(j) * R::size + R::piece] != first) return true;
+      if (piece_of(j) != first) return true;
     return false;
   }
   /// 1 in the lanes of the partner's piece, 0 in others.
@@ -240,16 +256,17 @@ struct Members {
   V stretch2(const Partner& p) const {
     return p.pair.reach() > T(0) ? p.stretch2 : V{};
   }
-  Touch<T, V, R, Dim> touch(double friction) const {
+  Touch<T, V, R, Dim> touch(const T* touches, double friction) const {
     const auto load = loader();
+    const auto load_touch = loader(touches, R::touch_size);
     Touch<T, V, R, Dim> t;
-    t.touching = load(R::touching);
+    t.touching = load_touch(R::touching);
     t.impedance = load(R::density) * load(R::sound_speed);
     for (int a = 0; a < Dim; ++a) {
-      t.normal[a] = load(R::normal + a);
+      t.normal[a] = load_touch(R::normal + a);
       t.velocity[a] = load(R::v + a);
     }
-    for (int k = 0; k < R::stresses; ++k) t.press[k] = load(R::press + k);
+    for (int k = 0; k < R::stresses; ++k) t.press[k] = load_touch(R::press + k);
     t.friction = static_cast<T>(friction);
     return t;
   }
