@@ -249,8 +249,9 @@ void PairPassOf<T, Dim, Kind, K>::cluster_rates(Particles<Dim>& particles, const
             own_share *= touch.weight(p, own);
             other_share *= touch.weight(p, own);
             for (int s = 0; s < R::stresses; ++s) {
-              ours[s] = own > T(0) ? stress[s] : V(own_share * touch.press[s]);
-              theirs[s] = own > T(0) ? V{} + j[R::stress + s] : V(other_share * p.touch[R::press + s]);
+              // Rounded before the sum, as in the kernels: seen from j it must be the same number.
+              ours[s] = own > T(0) ? stress[s] : simd::rounded(V(own_share * touch.press[s]));
+              theirs[s] = own > T(0) ? V{} + j[R::stress + s] : simd::rounded(V(other_share * p.touch[R::press + s]));
             }
             pair_detail::contract<true, Dim>(ours, theirs, kernel_gradient, force);
             if constexpr (R::split) pair_detail::contract<true, Dim, -1>(ours, theirs, kernel_gradient, uneven);

@@ -21,7 +21,7 @@ double curl(const Mat<Dim>& L) {
 /// times thinner than what its neighbours leave it, and the stress of the next one throws it away. Its density is held
 /// within these shares of mass over spacing, known from the zeroth moment; intact matter stays well within. Only a
 /// particle that has not had to widen its support has all its neighbours, and may be too dense.
-constexpr double least_density_share = 0.6, most_density_share = 2;
+constexpr double least_density_share = 0.6, most_density_share = 1.7;
 constexpr double least_filling = 0.85, widest_support = 1.15;
 
 /// Share of the viscosity that is left where nothing is compressed.
@@ -54,13 +54,16 @@ void hold_density(Simulation<Dim>& sim, const Material& material, double share, 
     if (nodes > least_filling * target) density = std::min(density, most);
     return;
   }
-  // Cold condensed matter stores energy on either side of its own density: that side is not changed for nothing.
+  // Cold condensed matter stores energy on either side of its own density, about (c s)^2/2 at a compression of 1 + s:
+  // nothing is brought further from that density than its own heat would do.
   const double whole = material.bulk_density();
-  if (density < whole) density = std::max(density, std::min(least, whole));
+  const double reach =
+      1 + std::sqrt(2 * std::max(0.0, p.column(Field::specific_energy)[i])) / p.column(Field::sound_speed)[i];
+  density = std::max(density, std::min(least, whole * reach));
   const Body& body = sim.scene.bodies[static_cast<std::size_t>(p.label(Label::body)[i])];
   const double h0 = target * sim.scene.spacing * body.spacing_factor;
-  if (density > whole && nodes > least_filling * target && h < widest_support * h0)
-    density = std::min(density, std::max(most, whole));
+  if (nodes > least_filling * target && h < widest_support * h0)
+    density = std::min(density, std::max(most, whole / reach));
 }
 
 }  // namespace
