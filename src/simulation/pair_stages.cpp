@@ -22,7 +22,7 @@ double curl(const Mat<Dim>& L) {
 /// within these shares of mass over spacing, known from the zeroth moment; intact matter stays well within. Only a
 /// particle that has not had to widen its support has all its neighbours, and may be too dense.
 constexpr double least_density_share = 0.6, most_density_share = 1.7;
-constexpr double least_filling = 0.85, widest_support = 1.15;
+constexpr double least_filling = 0.85, widest_support = 1.25;
 
 /// Share of the viscosity that is left where nothing is compressed.
 constexpr double least_viscosity = 0.1;
