@@ -50,9 +50,8 @@ void describe(Describer& d, Numerics& n) {
   d.choice("gradient_correction", n.gradient_correction,
            "gradients exact for linear fields, forces their adjoint; auto: unless all is ideal gas");
   d.choice("balsara", n.balsara,
-           "shear switch on the viscosity; with it nothing damps what turns; auto: unless all is ideal gas");
-  auto : unless all is ideal gas ");
-         d.choice("shock_switch", n.shock_switch,
+           "shear switch on the viscosity, which leaves turning matter undamped; auto: unless all is ideal gas");
+  d.choice("shock_switch", n.shock_switch,
                   "the viscosity decays to a tenth where no shock has come by; auto: unless all is ideal gas");
   d.choice("bonds", n.bonds,
            "elastic matter keeps the neighbours of the start; auto: where it bears strains above a twentieth");
