@@ -38,14 +38,14 @@ double draw_weakest_flaw(const GradyKipp& model, double volume, std::uint64_t se
 
 OpenCracks dealt_cracks(const Flaws& flaws) {
   const double strongest = flaws.exponent > 0 ? flaws.strain * std::pow(flaws.count, 1 / flaws.exponent) : flaws.strain;
-  return {flaws.strain, flaws.strain, strongest, flaws.exponent, flaws.count};
+  return {flaws.strain, flaws.strain, strongest, flaws.exponent, 3, flaws.count};
 }
 
 OpenCracks weibull_cracks(const GradyKipp& model, int dim, double volume, double weakest) {
   const double m = model.weibull_m;
   const double share = dim == 2 ? (m + 2) / (2 * (m + 1)) : 2 * (m + 3) * (m + 3) / (9 * (m + 1) * (m + 2));
   const double one = std::exp(-(std::log(share) + std::log(model.weibull_k) + std::log(volume)) / m);
-  return {weakest, one, std::numeric_limits<double>::infinity(), m / dim};
+  return {weakest, one, std::numeric_limits<double>::infinity(), m / dim, dim};
 }
 
 }  // namespace ejecta

@@ -1,6 +1,6 @@
 #pragma once
-/// Grady-Kipp fragmentation by Weibull-distributed flaws: scalar damage D (tensor_damage.hpp: tensor). The crack
-/// length, proportional to D^(1/Dim), is what is integrated in time.
+/// Grady-Kipp fragmentation by Weibull-distributed flaws: scalar damage D (tensor_damage.hpp: tensor). The length of
+/// the cracks, a root of D, is what is integrated in time.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -14,9 +14,10 @@ enum class CrackStrain { benz_asphaug, pseudo_plastic, strain_history };
 /// How fast the cracks of a particle grow with the strain.
 ///   grady_kipp:   every crack relieves a sphere (in plane strain a disc) of its own length; the same for particles of
 ///                 any size (Grady & Kipp 1980, Int. J. Rock Mech. 17, 147).
-///   benz_asphaug: c_g/R_s for each open one of the flaws dealt to the particle, R_s its smoothing length, and no more
-///                 damage than the share of its flaws that is open (Benz & Asphaug 1994, Icarus 107, 98; 1995, Comput.
-///                 Phys. Commun. 87, 253).
+///   benz_asphaug: D^(1/3), in plane strain too, by c_g/R_s for each open one of the flaws dealt to the particle, R_s
+///   its
+///                 smoothing length, and no more damage than the share of its flaws that is open (Benz & Asphaug 1994,
+///                 Icarus 107, 98; 1995, Comput. Phys. Commun. 87, 253).
 enum class CrackLaw { grady_kipp, benz_asphaug };
 
 /// Flaws that open below strain eps: k eps^m per volume.
@@ -27,6 +28,9 @@ struct GradyKipp {
   CrackLaw growth = CrackLaw::grady_kipp;
   bool tensor = false;                             ///< cracks have directions
   CrackStrain strain = CrackStrain::benz_asphaug;  ///< of tensor damage
+
+  /// D is this power of the length of cracks.
+  int crack_power(int dim) const { return growth == CrackLaw::benz_asphaug ? 3 : dim; }
 
   /// Whether the strain that opens flaws is accumulated in time.
   bool remembers_strain() const { return tensor && strain != CrackStrain::benz_asphaug; }
@@ -63,6 +67,7 @@ struct OpenCracks {
   double weakest;   ///< strain below which none grows
   double from, to;  ///< strains between which it rises
   double exponent;
+  int power;         ///< of their length is the damage
   double count = 1;  ///< dealt to the particle; 1: no limit on the damage before D = 1
 
   double at(double strain) const {
@@ -99,24 +104,17 @@ OpenCracks dealt_cracks(const Flaws& flaws);
 /// @param weakest  strain of its weakest flaw
 OpenCracks weibull_cracks(const GradyKipp& model, int dim, double volume, double weakest);
 
-/// x^(1/Dim) and its inverse, between damage and the length of a crack.
-template <int Dim>
-double crack_length(double damage) {
-  return Dim == 2 ? std::sqrt(damage) : std::cbrt(damage);
-}
-template <int Dim>
-double crack_damage(double length) {
-  return Dim == 2 ? length * length : length * length * length;
-}
+/// x^(1/power) and its inverse for powers 2 and 3, between damage and the length of a crack.
+inline double crack_length(double damage, int power) { return power == 2 ? std::sqrt(damage) : std::cbrt(damage); }
+inline double crack_damage(double length, int power) { return power == 2 ? length * length : length * length * length; }
 
-/// Length D^(1/Dim) of a crack at the end of a step in which the strain goes from `before` to `after`; never shorter,
-/// never beyond 1 or the share (n_active/n)^(1/Dim) of the dealt flaws that is open.
+/// Length D^(1/power) of a crack at the end of a step in which the strain goes from `before` to `after`; never shorter,
+/// never beyond 1 or the share (n_active/n)^(1/power) of the dealt flaws that is open.
 /// @param growth  c_g dt/R: what a single crack would grow by
-template <int Dim>
-double longer_crack(double length, double before, double after, const OpenCracks& cracks, double growth) {
+inline double longer_crack(double length, double before, double after, const OpenCracks& cracks, double growth) {
   const double most = std::max(before, after);
   if (!(most >= cracks.weakest)) return length;
-  const double limit = cracks.count > 1 ? crack_length<Dim>(cracks.at(most) / cracks.count) : 1;
+  const double limit = cracks.count > 1 ? crack_length(cracks.at(most) / cracks.count, cracks.power) : 1;
   if (length >= limit) return length;
   return std::min(length + growth * cracks.mean(before, after), limit);
 }

@@ -66,11 +66,11 @@ void grow_cracks(Mat<Dim>& damage, const Mat<Dim>& before, const Mat<Dim>& after
     const Vec<Dim> y = axes.eigenvectors().transpose() * n;
     const double broken = d.dot(y.cwiseAbs2()), intact = a.dot(y.cwiseAbs2());
     if (!(intact > 0)) continue;
-    const double crack = crack_length<Dim>(broken);
-    const double longer = longer_crack<Dim>(crack, from, to, growth.cracks,
-                                            dt * growth.crack_speed / damage_length<Dim>(growth.metric, n));
+    const double crack = crack_length(broken, growth.cracks.power);
+    const double longer =
+        longer_crack(crack, from, to, growth.cracks, dt * growth.crack_speed / damage_length<Dim>(growth.metric, n));
     if (!(longer > crack)) continue;
-    const double lost = std::min((crack_damage<Dim>(longer) - broken) / intact, 1.0);
+    const double lost = std::min((crack_damage(longer, growth.cracks.power) - broken) / intact, 1.0);
     const Vec<Dim> left = a.cwiseProduct(y);  // A n
     const Mat<Dim> grown = Mat<Dim>(d.asDiagonal()) + lost / intact * left * left.transpose();
     damage = turned<Dim>(grown, axes.eigenvectors());

@@ -53,9 +53,9 @@ double scalar_damage(Particles<Dim>& p, const Material& material, std::size_t i,
   strain = opening_strain<Dim>(p.column(Field::pressure)[i], deviator<Dim>(p, i), weakest, material.elastic->young(),
                                distension_of(p, material, i));
   if (std::max(before, strain) >= weakest && crack < 1)
-    crack = longer_crack<Dim>(crack, before, strain, cracks_of(p, material, i),
-                              dt * crack_speed(p, material, i) / relieved_radius(p, material, i));
-  return crack_damage<Dim>(crack);
+    crack = longer_crack(crack, before, strain, cracks_of(p, material, i),
+                         dt * crack_speed(p, material, i) / relieved_radius(p, material, i));
+  return crack_damage(crack, material.damage->crack_power(Dim));
 }
 
 /// The region that cracks relieve: a sphere (a disc) of the particle's volume, or its smoothing ellipsoid.

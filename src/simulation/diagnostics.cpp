@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/parallel.hpp"
+#include "particles/boundary_images.hpp"
 #include "simulation/particle_state.hpp"
 
 namespace ejecta {
@@ -109,7 +110,7 @@ PeakPressures peak_pressures(const Particles<Dim>& particles, std::int32_t body)
 }
 
 bool keeps_momentum(const Boundary& boundary) {
-  return std::ranges::count(boundary.kind, BoundaryKind::reflecting) == 0;
+  return std::ranges::none_of(boundary.kind, mirrors);
 }
 
 bool keeps_angular_momentum(const Boundary& boundary) {

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 # Basalt: the strength that grows with pressure, which is the shipped one, and the older constant yield stress.
 CONFIGURATIONS = {
     "pumice_impact": {
-        "classical": {"numerics.gradient_correction": "false", "numerics.balsara": "false"},
+        "classical": {"numerics.gradient_correction": "false", "numerics.balsara": "false", "numerics.shock_switch": "false"},
         "corrected": {"numerics.gradient_correction": "true", "numerics.balsara": "true"},
     },
     "basalt_impact": {
