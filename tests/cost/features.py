@@ -8,14 +8,14 @@ from pathlib import Path
 FOLDER = Path(__file__).resolve().parent
 
 # Every stage there is, in the order of the algorithm.
-ALGORITHM = ["neighbours", "density", "equation of state", "strength", "damage", "pair rates", "strain rates",
-             "shear switch", "smoothing lengths"]
+ALGORITHM = ["neighbours", "density", "equation of state", "strength", "bonds", "damage", "pair rates",
+             "strain rates", "viscosity switches", "smoothing lengths"]
 
 # Components in three dimensions of what is no plain number.
 COMPONENTS = {"position": 3, "velocity": 3, "acceleration": 3, "velocity_gradient": 9, "deviatoric_stress": 5,
-              "stress_rate": 5}
+              "stress_rate": 5, "start_position": 3}
 # Rates are kept twice: the integrator needs those of the step before.
-RATES = {"acceleration", "heating", "density_rate", "stress_rate"}
+RATES = {"acceleration", "heating", "compression_rate", "stress_rate"}
 
 GAS_COLUMNS = """position velocity acceleration mass density specific_energy heating pressure sound_speed
 smoothing_length neighbour_sum approach_speed""".split()
@@ -67,22 +67,27 @@ GRADY_KIPP = material("damage", model="grady_kipp", weibull_m=9.5, weibull_k="1.
 PORES = material("porosity", model="two_power", initial_distension=3.3242857142857143, elastic_pressure="1 MPa",
                  transition_pressure="68 MPa", solid_pressure="213 MPa", reference_distension=4.64,
                  transition_distension=1.90, n1=12, n2=3)
+BONDS = ("start_position", "bond", "stretch")
+SWITCHES = ("viscosity_factor", "shear_switch", "shock_switch")
 CRACKS = ("damage", "crack", "local_strain", "flaw_strain")
 
 gas = Case("gas", FOLDER / "gas.toml", {"numerics.density": "summation"},
            adds_stages=("neighbours", "density", "equation of state", "pair rates"), adds_columns=tuple(GAS_COLUMNS))
 gas_continuity = Case("gas, continuity", gas, {"numerics.density": "continuity"},
                       drops_stages=("density",), adds_stages=("strain rates", "smoothing lengths"),
-                      adds_columns=("density_rate", "velocity_gradient"))
+                      adds_columns=("compression_rate", "velocity_gradient"))
 
 elastic = Case("elastic", FOLDER / "solid.toml", {},
-               adds_stages=("neighbours", "equation of state", "pair rates", "strain rates", "smoothing lengths"),
-               adds_columns=(*GAS_COLUMNS, "density_rate", "velocity_gradient", "deviatoric_stress", "stress_rate"))
-plastic = Case("elastic, strength", elastic, VON_MISES, adds_stages=("strength",), adds_columns=("plastic_strain",))
+               adds_stages=("neighbours", "equation of state", "bonds", "pair rates", "strain rates",
+                            "viscosity switches", "smoothing lengths"),
+               adds_columns=(*GAS_COLUMNS, *BONDS, *SWITCHES, "compression_rate", "velocity_gradient",
+                             "deviatoric_stress", "stress_rate"))
+plastic = Case("elastic, strength", elastic, VON_MISES, adds_stages=("strength",), drops_stages=("bonds",),
+               adds_columns=("plastic_strain",), drops_columns=BONDS)
 brittle = Case("elastic, strength, damage", plastic, GRADY_KIPP, adds_stages=("damage",), adds_columns=CRACKS,
                other_bytes=8)
 porous = Case("elastic, pores", elastic, {**PORES, **material("porosity", crush_damage="false")},
-              adds_columns=("distension", "stress_factor"))
+              drops_stages=("bonds",), adds_columns=("distension", "stress_factor"), drops_columns=BONDS)
 crushed = Case("elastic, pores, damage by crushing", porous, material("porosity", crush_damage="true"),
                adds_stages=("damage",), adds_columns=("damage",), other_bytes=8)
 pumice = Case("elastic, strength, damage, pores", brittle, PORES, adds_columns=("distension", "stress_factor"))
@@ -90,20 +95,23 @@ pumice = Case("elastic, strength, damage, pores", brittle, PORES, adds_columns=(
 CASES = [
     gas,
     Case("gas, mixed precision", gas, {"numerics.precision": "mixed"}),
-    Case("gas, balsara", gas, {"numerics.balsara": "true"}, adds_stages=("shear switch",),
-         adds_columns=("shear_switch", "velocity_gradient")),
+    Case("gas, balsara", gas, {"numerics.balsara": "true"}, adds_stages=("viscosity switches",),
+         adds_columns=("viscosity_factor", "shear_switch", "velocity_gradient")),
+    Case("gas, shock switch", gas, {"numerics.shock_switch": "true"}, adds_stages=("viscosity switches",),
+         adds_columns=("viscosity_factor", "shock_switch", "velocity_gradient")),
     gas_continuity,
     Case("gas, continuity, constant h", gas_continuity, {"numerics.smoothing_growth": 1},
          drops_stages=("smoothing lengths",)),
     Case("gas, continuity, gradient correction", gas_continuity, {"numerics.gradient_correction": "true"}),
     elastic,
+    Case("elastic, no bonds", elastic, {"numerics.bonds": "false"}, drops_stages=("bonds",), drops_columns=BONDS),
     plastic,
     brittle,
     porous,
     crushed,
     pumice,
-    Case("pumice, balsara", pumice, {"numerics.balsara": "true"}, adds_stages=("shear switch",),
-         adds_columns=("shear_switch",)),
-    Case("pumice, gradient correction", pumice, {"numerics.gradient_correction": "true"}),
+    Case("pumice, no switches", pumice, {"numerics.balsara": "false", "numerics.shock_switch": "false"},
+         drops_stages=("viscosity switches",), drops_columns=SWITCHES),
+    Case("pumice, raw gradients", pumice, {"numerics.gradient_correction": "false"}),
     Case("pumice, mixed precision", pumice, {"numerics.precision": "mixed"}),
 ]

@@ -40,7 +40,7 @@ class Commands(RunTest):
         columns = result.stdout.split("columns\n")[1].split("estimate\n")[0]
         self.assertIn("pressure", columns)
         names = [line.split()[0] for line in columns.splitlines()]
-        for word in ("stress", "damage", "distension", "flaw", "crack", "plastic", "gradient", "switch", "density_rate"):
+        for word in ("stress", "damage", "distension", "flaw", "crack", "plastic", "gradient", "switch", "compression_rate"):
             self.assertFalse([name for name in names if word in name])
 
     def test_check_of_the_impacts(self):

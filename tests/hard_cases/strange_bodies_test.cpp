@@ -78,8 +78,8 @@ velocity = [0, 0, "-3 km/s"]
 }
 
 /// An iron needle, one particle thick, thrown point first at an aluminium plate, one particle thick: it goes through
-/// and makes a hole. The neighbours of such particles do not span space, so the correction of gradients falls back to
-/// none where its matrix has no inverse, and all stays finite.
+/// and makes a hole. The neighbours of such particles do not span space, so corrected gradients fade in the directions
+/// where there are none, and all stays finite.
 TEST(StrangeBodies, ANeedleGoesThroughASheet) {
   for (const char* corrected : {"false", "true"}) {
     const auto sim = start<3>(R"([scene]

@@ -328,5 +328,21 @@ TEST(Reference, OfOneSection) {
             One{"describe nonsense: no such section; without a name all are listed"});
 }
 
+TEST(MaterialReader, WhatStaysElasticBeyondATwentiethStretches) {
+  for (const char* name : {"aluminium", "steel_304", "basalt", "pumice", "nylon", "ice", "air", "water"})
+    EXPECT_FALSE(read_material(name, {library}).stretches()) << name;
+  Material m = read_material("rubber", {library});
+  EXPECT_TRUE(m.stretches());
+  const double young = m.elastic->young();
+  m.strength = VonMises{0.06 * young};
+  EXPECT_TRUE(m.stretches());
+  m.strength = VonMises{0.04 * young};
+  EXPECT_FALSE(m.stretches());
+  m.strength.reset();
+  EXPECT_TRUE(m.stretches());
+  m.damage = read_material("basalt", {library}).damage;
+  EXPECT_FALSE(m.stretches()) << "what breaks needs no bonds";
+}
+
 }  // namespace
 }  // namespace ejecta

@@ -29,13 +29,13 @@ TEST(FieldCatalogue, KnowsComponentsByShapeAndDimension) {
 
 TEST(Particles, HaveTheFieldsAskedForAndTheBasicFour) {
   Particles<3> p;
-  const std::array fields{Field::density, Field::density_rate};
+  const std::array fields{Field::density, Field::compression_rate};
   p.allocate(100, fields);
   EXPECT_EQ(p.fields(), (std::vector<Field>{Field::position, Field::velocity, Field::acceleration, Field::mass,
-                                            Field::density, Field::density_rate}));
+                                            Field::density, Field::compression_rate}));
   EXPECT_FALSE(p.has(Field::damage));
   EXPECT_EQ(p.column(Field::position, 2).size(), 100u);
-  EXPECT_EQ(p.previous(Field::density_rate).size(), 100u);
+  EXPECT_EQ(p.previous(Field::compression_rate).size(), 100u);
 }
 
 TEST(Particles, CostTheBytesOfTheirColumnsAlone) {
@@ -51,27 +51,27 @@ TEST(Particles, CostTheBytesOfTheirColumnsAlone) {
 
 TEST(Particles, SwapRatesExchangesPresentAndPreviousOfEveryRate) {
   Particles<2> p;
-  const std::array fields{Field::density, Field::density_rate};
+  const std::array fields{Field::density, Field::compression_rate};
   p.allocate(3, fields);
   p.column(Field::acceleration, 1)[2] = 5;
-  p.column(Field::density_rate)[0] = 7;
+  p.column(Field::compression_rate)[0] = 7;
   p.column(Field::density)[0] = 9;
   p.swap_rates();
   EXPECT_EQ(p.previous(Field::acceleration, 1)[2], 5);
   EXPECT_EQ(p.column(Field::acceleration, 1)[2], 0);
-  EXPECT_EQ(p.previous(Field::density_rate)[0], 7);
+  EXPECT_EQ(p.previous(Field::compression_rate)[0], 7);
   EXPECT_EQ(p.column(Field::density)[0], 9);
 }
 
 TEST(Particles, ReorderMovesEveryColumnAndLabel) {
   Particles<2> p;
-  const std::array fields{Field::density_rate};
+  const std::array fields{Field::compression_rate};
   p.allocate(3, fields);
   for (std::size_t i = 0; i < 3; ++i) {
     const double value = static_cast<double>(i);
     p.set_vector(Field::position, i, Vec<2>(value, 10 + value));
-    p.column(Field::density_rate)[i] = 20 + value;
-    p.previous(Field::density_rate)[i] = 30 + value;
+    p.column(Field::compression_rate)[i] = 20 + value;
+    p.previous(Field::compression_rate)[i] = 30 + value;
     p.label(Label::body)[i] = 40 + static_cast<int>(i);
   }
   const std::array<std::uint32_t, 3> order{2, 0, 1};
@@ -79,8 +79,8 @@ TEST(Particles, ReorderMovesEveryColumnAndLabel) {
   for (std::size_t i = 0; i < 3; ++i) {
     const double value = order[i];
     EXPECT_EQ(p.vector(Field::position, i), Vec<2>(value, 10 + value));
-    EXPECT_EQ(p.column(Field::density_rate)[i], 20 + value);
-    EXPECT_EQ(p.previous(Field::density_rate)[i], 30 + value);
+    EXPECT_EQ(p.column(Field::compression_rate)[i], 20 + value);
+    EXPECT_EQ(p.previous(Field::compression_rate)[i], 30 + value);
     EXPECT_EQ(p.label(Label::body)[i], 40 + static_cast<int>(order[i]));
   }
 }

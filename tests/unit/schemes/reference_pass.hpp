@@ -1,147 +1,302 @@
 #pragma once
-/// The pair sums of pair_pass.hpp as a plain double loop over all pairs, written from the formulas alone; and random
-/// clouds with every field a pass reads.
-#include <Eigen/LU>
+/// The pair sums of pair_pass.hpp as plain loops over all pairs, written from the formulas alone.
+#include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "schemes/cracked_stress.hpp"
 #include "schemes/kernels.hpp"
-#include "schemes/pair_pass.hpp"
-#include "unit/particles/cloud.hpp"
+#include "unit/schemes/random_matter.hpp"
 
 namespace ejecta {
-
-inline constexpr double spacing = 0.0013;  ///< of the test clouds [m]
-
-inline PairPassSettings settings_of(Kernel kernel, Precision precision, bool stress, bool correction) {
-  PairPassSettings s;
-  s.kernel = kernel;
-  s.precision = precision;
-  s.stress = stress;
-  s.velocity_gradient = true;
-  s.gradient_correction = correction;
-  s.viscosity_alpha = 1.5;
-  s.viscosity_beta = 2.5;
-  s.length_unit = 1.0 / 1024;
-  return s;
-}
-
-/// n particles of a cloud with that mean spacing; every field that rates() reads is random. Ranges of two
-/// materials.
-template <int Dim>
-Particles<Dim> random_matter(std::size_t n, unsigned seed, bool stress, double h_spread = 1.5,
-                             std::vector<Field> more = {}) {
-  std::vector<Field> fields{Field::smoothing_length, Field::density,      Field::pressure,
-                            Field::sound_speed,      Field::heating,      Field::neighbour_sum,
-                            Field::approach_speed,   Field::shear_switch, Field::velocity_gradient};
-  if (stress) fields.push_back(Field::deviatoric_stress);
-  fields.insert(fields.end(), more.begin(), more.end());
-  Particles<Dim> p = random_cloud<Dim>(n, seed, spacing, h_spread * spacing, fields);
-  Uniform uniform(seed + 1);
-  const double edge = spacing * std::pow(static_cast<double>(n), 1.0 / Dim);
-  for (std::size_t i = 0; i < n; ++i) {
-    for (int a = 0; a < Dim; ++a) {
-      p.column(Field::position, a)[i] = edge * (p.column(Field::position, a)[i] - 0.3);
-      p.column(Field::velocity, a)[i] = uniform(-100, 100);
-    }
-    // A number that single precision holds: set-up makes such masses for mixed precision.
-    p.column(Field::mass)[i] = static_cast<float>(uniform(1, 2) * 2000 * std::pow(spacing, Dim));
-    p.column(Field::density)[i] = uniform(1500, 3000);
-    p.column(Field::pressure)[i] = uniform(-1e8, 1e9);
-    p.column(Field::sound_speed)[i] = uniform(1000, 3000);
-    p.column(Field::shear_switch)[i] = uniform(0, 1);
-    for (int k = 0; stress && k < deviator_size<Dim>; ++k)
-      p.column(Field::deviatoric_stress, k)[i] = uniform(-5e8, 5e8);
-  }
-  p.set_material_ranges({{0, n / 3}, {n / 3, n}});
-  return p;
-}
 
 /// Sums of one particle, and of the magnitudes of their terms: round-off is measured against those.
 template <int Dim>
 struct Sums {
   Vec<Dim> acceleration = Vec<Dim>::Zero();
-  double heating = 0, moment = 0, approach = 0;
-  Mat<Dim> gradient = Mat<Dim>::Zero(), spread = Mat<Dim>::Zero();
+  double heating = 0, moment = 0, approach = 0, density = 0, stretch = 1;
+  Mat<Dim> gradient = Mat<Dim>::Zero(), coupled_gradient = Mat<Dim>::Zero();
   double acceleration_scale = 0, heating_scale = 0, gradient_scale = 0;
 };
 
-/// sigma = -P I + S of particle i; `intact` scales the deviator (empty: 1).
+/// sigma = -P I + S of particle i; `intact` scales the deviator (empty: 1), cracks cut it.
 template <int Dim>
-Mat<Dim> stress_of(const Particles<Dim>& p, std::span<const double> intact, std::size_t i) {
-  Mat<Dim> sigma = -p.column(Field::pressure)[i] * Mat<Dim>::Identity();
-  if (!p.has(Field::deviatoric_stress)) return sigma;
-  const auto s = [&](int k) { return (intact.empty() ? 1 : intact[i]) * p.column(Field::deviatoric_stress, k)[i]; };
-  sigma(0, 0) += s(0);
-  sigma(1, 1) += s(1);
-  sigma(0, 1) += s(2);
-  sigma(1, 0) += s(2);
-  if constexpr (Dim == 3) {
-    sigma(2, 2) -= s(0) + s(1);
-    sigma(0, 2) += s(3);
-    sigma(2, 0) += s(3);
-    sigma(1, 2) += s(4);
-    sigma(2, 1) += s(4);
+Mat<Dim> stress_of(const Particles<Dim>& p, std::span<const double> intact, bool cracked, std::size_t i) {
+  Mat<Dim> s = Mat<Dim>::Zero();
+  if (p.has(Field::deviatoric_stress)) {
+    const auto d = [&](int k) { return (intact.empty() ? 1 : intact[i]) * p.column(Field::deviatoric_stress, k)[i]; };
+    if constexpr (Dim == 2)
+      s << d(0), d(2), d(2), d(1);
+    else
+      s << d(0), d(2), d(3), d(2), d(1), d(4), d(3), d(4), -d(0) - d(1);
   }
-  return sigma;
+  if (cracked) s = transmitted<Dim>(s, p.symmetric(Field::damage_tensor, i));
+  return s - p.column(Field::pressure)[i] * Mat<Dim>::Identity();
 }
 
-/// The sums of particle i over all others.
-template <int Dim>
-Sums<Dim> reference_rates(const Particles<Dim>& p, const PairPassSettings& settings, std::span<const double> intact,
-                          std::size_t i) {
-  return with_kernel(settings.kernel, [&](auto kernel) {
-    using K = decltype(kernel);
-    Sums<Dim> sums;
-    const auto h = p.column(Field::smoothing_length), rho = p.column(Field::density), c = p.column(Field::sound_speed),
-               mass = p.column(Field::mass), balsara = p.column(Field::shear_switch);
-    const auto slope = [](double q) { return q < K::support ? q * K::slope_over_q(q, 1 / q) : 0.0; };
-    const Mat<Dim> own = stress_of(p, intact, i) / (rho[i] * rho[i]);
-    for (std::size_t j = 0; j < p.size(); ++j) {
-      const Vec<Dim> x = p.vector(Field::position, i) - p.vector(Field::position, j);
-      const Vec<Dim> v = p.vector(Field::velocity, i) - p.vector(Field::velocity, j);
-      const double r = x.norm();
-      if (r == 0) continue;
-      const double dW = 0.5 * K::template norm<Dim> *
-                        (slope(r / h[i]) / std::pow(h[i], Dim + 1) + slope(r / h[j]) / std::pow(h[j], Dim + 1));
-      const Vec<Dim> gradW = dW / r * x;
-      const double mean_h = 0.5 * (h[i] + h[j]);
-      const double mu = v.dot(x) < 0 ? mean_h * v.dot(x) / (r * r + 0.01 * mean_h * mean_h) : 0;
-      const double viscosity =
-          0.5 * (balsara[i] + balsara[j]) * 0.5 * (1 / rho[i] + 1 / rho[j]) *
-          (-settings.viscosity_alpha * 0.5 * (c[i] + c[j]) * mu + settings.viscosity_beta * mu * mu);
-      const Mat<Dim> one = Mat<Dim>::Identity();
-      const Vec<Dim> force = mass[j] * (own + stress_of(p, intact, j) / (rho[j] * rho[j]) - viscosity * one) * gradW;
-      const double heat = -mass[j] * v.dot((own - 0.5 * viscosity * one) * gradW);
-      sums.acceleration += force;
-      sums.heating += heat;
-      sums.moment -= slope(r / h[i]);
-      if (r < K::support * h[i]) sums.approach = std::max(sums.approach, -mu);
-      sums.gradient -= mass[j] / rho[i] * v * gradW.transpose();
-      sums.spread -= mass[j] / rho[i] * x * gradW.transpose();
-      sums.acceleration_scale += force.norm();
-      sums.heating_scale += mass[j] * v.norm() * (own - 0.5 * viscosity * one).norm() * gradW.norm();
-      sums.gradient_scale += mass[j] / rho[i] * v.norm() * gradW.norm();
-    }
-    return sums;
+/// A kernel by its functions.
+struct KernelFunctions {
+  double support, norm;
+  double (*value)(double);
+  double (*slope)(double);  ///< of the value
+};
+inline KernelFunctions functions_of(Kernel kernel, int dim) {
+  return with_kernel(kernel, [&](auto k) {
+    using K = decltype(k);
+    return KernelFunctions{K::support, dim == 2 ? K::template norm<2> : K::template norm<3>,
+                           [](double q) { return q < K::support ? K::value(q) : 0.0; },
+                           [](double q) { return q > 0 && q < K::support ? q * K::slope_over_q(q, 1 / q) : 0.0; }};
   });
 }
 
-/// Lists and a pass for the particles as they are; returns the lists.
+/// P and Q of gradient_correction.hpp, always by the singular values.
 template <int Dim>
-PairLists<Dim> run_rates(Particles<Dim>& p, const PairPassSettings& settings, std::span<const double> intact = {}) {
-  PairLists<Dim> lists;
-  lists.build(p, {kernel_support(settings.kernel), cluster_size(settings.precision), 0, settings.boundary});
-  make_pair_pass<Dim>(settings)->rates(p, lists, intact);
-  return lists;
-}
+struct Inverse {
+  Mat<Dim> P = Mat<Dim>::Identity(), Q = Mat<Dim>::Identity();
+  static Inverse of(const Mat<Dim>& M) {
+    const Eigen::JacobiSVD<Mat<Dim>> svd(M, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    const Vec<Dim> p = (svd.singularValues() / least_moment).cwiseMin(1);
+    const Vec<Dim> q = svd.singularValues().cwiseMax(least_moment).cwiseInverse();
+    const Mat<Dim>&U = svd.matrixU(), &V = svd.matrixV();
+    return {U * p.asDiagonal() * U.transpose(), U * q.asDiagonal() * V.transpose()};
+  }
+};
+
+/// What a particle of the reference copies, if it is an image: the components of its vectors along a face that mirrors
+/// it have changed sign, and behind a wall it belongs to the wall.
+template <int Dim>
+struct Copy {
+  std::size_t source;
+  Vec<Dim> sign = Vec<Dim>::Ones();
+  bool behind_wall = false;
+};
 
 template <int Dim>
-Mat<Dim> velocity_gradient_of(const Particles<Dim>& p, std::size_t i) {
-  Mat<Dim> L;
-  for (int a = 0; a < Dim; ++a)
-    for (int b = 0; b < Dim; ++b) L(a, b) = p.column(Field::velocity_gradient, a * Dim + b)[i];
-  return L;
-}
+class Reference {
+ public:
+  /// The first particles are those asked for; the others may be copies of them.
+  Reference(const Particles<Dim>& particles, const PairPassSettings& settings, std::span<const double> intact = {},
+            std::vector<Copy<Dim>> copies = {})
+      : p_(particles),
+        settings_(settings),
+        kernel_(functions_of(settings.kernel, Dim)),
+        copies_(std::move(copies)),
+        views_(particles.size()) {
+    look_around(intact);
+  }
+
+  Sums<Dim> rates(std::size_t i) const {
+    Sums<Dim> sums;
+    const View& own = views_[i];
+    const double rho = column(Field::density, i), c = column(Field::sound_speed, i),
+                 h = column(Field::smoothing_length, i);
+    Mat<Dim> R = Mat<Dim>::Zero(), touched = R, uncut = R, uncut_moment = R;
+    for (std::size_t j = 0; j < p_.size(); ++j) {
+      const Pair q = pair(i, j);
+      const View& other = views_[j];
+      sums.moment -= kernel_.slope(q.eta_i);
+      sums.density += column(Field::mass, i) * kernel_.norm * own.H.determinant() * kernel_.value(q.eta_i);
+      sums.stretch = std::max(sums.stretch, q.stretch);
+      if (q.r == 0) continue;
+
+      double closing = q.v.dot(q.x),
+             f = 0.5 * (column(Field::viscosity_factor, i) + column(Field::viscosity_factor, j));
+      const double c_j = column(Field::sound_speed, j), rho_j = column(Field::density, j);
+      Vec<Dim> n = own.normal - other.normal;
+      if (!q.own) {
+        if (n.squaredNorm() > 0.01) closing = q.v.dot(n) * q.x.dot(n) / n.squaredNorm();
+        f = touching_pair(i, j) * std::min(1.0, 4 * std::min(c, c_j) / (c + c_j));
+      }
+      const double mean_h = 0.5 * (h + column(Field::smoothing_length, j));
+      const double mu = std::min(0.0, closing) * (settings_.tensor ? q.eta / (q.eta * q.eta + 0.01) / q.r
+                                                                   : mean_h / (q.r * q.r + 0.01 * mean_h * mean_h));
+      const double mean_rho = std::min(0.5 * (rho + rho_j), 2 * std::min(rho, rho_j));
+      const double viscosity =
+          f * mean_rho * (-settings_.viscosity_alpha * 0.5 * (c + c_j) * mu + settings_.viscosity_beta * mu * mu) *
+          q.central;
+      if (q.eta_i < kernel_.support) sums.approach = std::max(sums.approach, -mu);
+
+      const Mat<Dim> ours = q.own ? own.own : Mat<Dim>(share(i, j) * own.press),
+                     theirs = q.own ? other.own : Mat<Dim>(share(j, i) * other.press);
+      Vec<Dim> force = (ours + theirs) * q.g - viscosity * q.x;
+      double heat = q.v.dot(ours * q.g) - 0.5 * viscosity * q.v.dot(q.x);
+      if (!q.own && settings_.friction > 0 && n.norm() > 0) {
+        n.normalize();
+        // A wall rests: the image of what slides to the right slides to the left.
+        Vec<Dim> slide = q.v;
+        if (other.piece == wall) slide = -p_.vector(Field::velocity, j) - p_.vector(Field::velocity, i);
+        slide -= slide.dot(n) * n;
+        const double push = std::max(0.0, -force.dot(n));
+        const Vec<Dim> drag =
+            std::min(settings_.friction * push, std::min(own.Z, other.Z) * slide.norm() * q.central * q.r) *
+            slide.normalized();
+        force += drag;
+        heat += 0.5 * drag.dot(slide);
+      }
+      sums.acceleration += other.V / rho * force;
+      sums.heating += other.V / rho * heat;
+      const double strain = other.V * q.v.norm() * q.g.norm();
+      sums.acceleration_scale += other.V / rho * ((ours.norm() + theirs.norm()) * q.g.norm() + viscosity * q.r);
+      sums.heating_scale += (ours.norm() + theirs.norm()) / rho * strain + other.V / rho * viscosity * q.r * q.v.norm();
+      sums.gradient_scale += strain;
+
+      const Mat<Dim> add = other.V * q.v * q.g.transpose(), add_moment = other.V * q.x * q.g.transpose();
+      if (!q.own) {
+        touched += share(i, j) * add;
+        continue;
+      }
+      R += add;
+      double left = 1;
+      if (settings_.coupled) {
+        const Vec<Dim> along = q.x.normalized();
+        left -= std::max(along.dot(p_.symmetric(Field::damage_tensor, i) * along),
+                         along.dot(p_.symmetric(Field::damage_tensor, j) * along));
+      }
+      uncut += left * add;
+      uncut_moment += left * add_moment;
+    }
+    const auto corrected = [](const Inverse<Dim>& k, const Mat<Dim>& raw) { return k.P * raw * k.Q.transpose(); };
+    sums.gradient = corrected(inverse(own.moment), R);
+    if (!own.touched.isZero(0)) {
+      const Mat<Dim> both = corrected(inverse(own.moment + own.touched), R + touched);
+      const double opening = own.normal.dot((both - sums.gradient) * own.normal);
+      if (opening < 0 || !own.press.isZero(0)) sums.gradient += opening * own.normal * own.normal.transpose();
+    }
+    sums.coupled_gradient = corrected(Inverse<Dim>::of(uncut_moment), uncut);
+    return sums;
+  }
+
+  /// The stress that acts on other pieces.
+  const Mat<Dim>& press(std::size_t i) const { return views_[i].press; }
+
+ private:
+  /// What partners see of a particle.
+  struct View {
+    Mat<Dim> G, H, own, press = Mat<Dim>::Zero(), moment = Mat<Dim>::Zero(), touched = Mat<Dim>::Zero();
+    Vec<Dim> normal = Vec<Dim>::Zero();
+    double V, Z, touching = 0;
+    int piece = 0;
+  };
+  struct Pair {
+    Vec<Dim> x, v, g;  ///< x_j - x_i, v_j - v_i, grad_i W
+    double r, central, eta_i, eta, stretch;
+    bool own;
+  };
+
+  double column(Field f, std::size_t i) const { return p_.column(f)[i]; }
+  std::size_t source(std::size_t i) const { return i < copies_.size() ? copies_[i].source : i; }
+  /// grad_i W with the smoothing of particle k alone.
+  Vec<Dim> one_sided(std::size_t k, const Vec<Dim>& y, double& eta) const {
+    eta = (views_[k].H * y).norm();
+    if (eta == 0) return Vec<Dim>::Zero();
+    return -kernel_.norm * views_[k].H.determinant() * kernel_.slope(eta) / eta * (views_[k].G * y);
+  }
+
+  Pair pair(std::size_t i, std::size_t j) const {
+    Pair q;
+    q.x = p_.vector(Field::position, j) - p_.vector(Field::position, i);
+    q.v = p_.vector(Field::velocity, j) - p_.vector(Field::velocity, i);
+    q.r = q.x.norm();
+    q.own = views_[i].piece == views_[j].piece;
+    Vec<Dim> y = q.x;
+    q.stretch = 1;
+    if (settings_.bonded && q.own && column(Field::bond, i) > 0 && column(Field::bond, j) > 0) {
+      const Vec<Dim> start = p_.vector(Field::start_position, j) - p_.vector(Field::start_position, i);
+      q.own =
+          start.norm() <= kernel_.support * (column(Field::smoothing_length, i) + column(Field::smoothing_length, j));
+      if (q.own) y = start;
+    }
+    double eta_j;
+    q.g = 0.5 * (one_sided(i, y, q.eta_i) + one_sided(j, y, eta_j));
+    q.eta = 0.5 * (q.eta_i + eta_j);
+    // Of a bond the kernel sees the separation at the start, and the viscosity acts along the present one.
+    q.central = y.norm() > 0 ? y.dot(q.g) / y.squaredNorm() : 0;
+    if (q.g.norm() > 0) q.stretch = std::max(1.0, q.r / y.norm());
+    return q;
+  }
+
+  void look_around(std::span<const double> intact) {
+    const std::size_t all = p_.size();
+    const std::vector<int>& pieces = settings_.rules.pieces;
+    for (std::size_t i = 0; i < all; ++i) {
+      View& view = views_[i];
+      const double h = column(Field::smoothing_length, i);
+      view.H = Mat<Dim>::Identity() / h;
+      if (settings_.tensor)
+        view.H = Eigen::SelfAdjointEigenSolver<Mat<Dim>>(p_.symmetric(Field::smoothing_metric, i)).operatorSqrt();
+      view.G = view.H * view.H;
+      view.V = column(Field::mass, i) / column(Field::density, i);
+      view.Z = column(Field::density, i) * column(Field::sound_speed, i);
+      if (!pieces.empty()) view.piece = pieces[static_cast<std::size_t>(p_.label(Label::body)[i])];
+      if (i < copies_.size() && copies_[i].behind_wall && view.piece != 0) view.piece = wall;
+    }
+    for (std::size_t i = 0; settings_.touches && i < all; ++i)
+      if (source(i) == i) feel(i);
+    from_sources([](View& view, const View& of, const Vec<Dim>& sign) {
+      view.touching = of.touching;
+      view.normal = sign.cwiseProduct(of.normal);
+    });
+    for (std::size_t i = 0; i < all; ++i) {
+      if (source(i) != i) continue;
+      View& view = views_[i];
+      for (std::size_t j = 0; j < all; ++j) {
+        const Pair q = pair(i, j);
+        if (q.own)
+          view.moment += views_[j].V * q.x * q.g.transpose();
+        else
+          view.touched += share(i, j) * views_[j].V * q.x * q.g.transpose();
+      }
+      const Mat<Dim> sigma = stress_of(p_, intact, settings_.coupled, i);
+      const Inverse<Dim> own = inverse(view.moment), both = inverse(view.moment + view.touched);
+      const Vec<Dim>& n = view.normal;
+      const Mat<Dim> passed = std::min(0.0, n.dot(sigma * n)) * n * n.transpose();
+      if (!view.touched.isZero(0)) view.press = both.P * passed * both.Q;
+      view.own = own.P * (view.touched.isZero(0) ? sigma : Mat<Dim>(sigma - passed)) * own.Q + view.press;
+    }
+    from_sources([](View& view, const View& of, const Vec<Dim>& sign) {
+      view.own = sign.asDiagonal() * of.own * sign.asDiagonal();
+      view.press = sign.asDiagonal() * of.press * sign.asDiagonal();
+    });
+  }
+  template <class Take>
+  void from_sources(Take&& take) {
+    for (std::size_t i = 0; i < copies_.size(); ++i)
+      if (source(i) != i) take(views_[i], views_[source(i)], copies_[i].sign);
+  }
+  Inverse<Dim> inverse(const Mat<Dim>& M) const {
+    return settings_.gradient_correction ? Inverse<Dim>::of(M) : Inverse<Dim>{};
+  }
+
+  /// Where other pieces are, and how near.
+  void feel(std::size_t i) {
+    Vec<Dim> outward = Vec<Dim>::Zero();
+    double occupied = 0;
+    for (std::size_t j = 0; j < p_.size(); ++j) {
+      const Pair q = pair(i, j);
+      if (q.own || q.g.isZero(0)) continue;
+      outward += views_[j].V * q.g;
+      occupied += views_[j].V * kernel_.norm * views_[i].H.determinant() * kernel_.value(q.eta_i);
+    }
+    if (occupied == 0) return;
+    const double size = settings_.rules.sizes[static_cast<std::size_t>(p_.label(Label::body)[i])];
+    const HalfSpace half_space = with_kernel(settings_.kernel, [](auto kernel) { return HalfSpace(kernel, Dim); });
+    const double half_size_away = half_space(0.5 * size / column(Field::smoothing_length, i));
+    views_[i].touching = std::clamp((occupied / half_size_away - 1) / 0.02, 0.0, 1.0);
+    views_[i].normal = outward.normalized();
+  }
+  double touching_pair(std::size_t i, std::size_t j) const { return std::max(views_[i].touching, views_[j].touching); }
+  /// Share of i in a contact with j: the softer of two decides.
+  double share(std::size_t i, std::size_t j) const {
+    return touching_pair(i, j) * 2 * views_[j].Z / (views_[i].Z + views_[j].Z);
+  }
+
+  const Particles<Dim>& p_;
+  PairPassSettings settings_;
+  KernelFunctions kernel_;
+  std::vector<Copy<Dim>> copies_;
+  std::vector<View> views_;
+};
 
 }  // namespace ejecta

@@ -60,7 +60,7 @@ TEST(Allocation, TheCounterCounts) {
 
 TEST(Allocation, StepsAllocateNothingOnceWarm) {
   for (const char* precision : {"numerics.precision=double", "numerics.precision=mixed"}) {
-    const Counts rock = count_allocations(*start<3>(porous_impact, {precision, "numerics.balsara=true"}));
+    const Counts rock = count_allocations(*start<3>(porous_impact, {precision, "bodies.ball.material=rubber"}));
     const Counts gas = count_allocations(*start<2>(gas_tube, {precision}));
     EXPECT_EQ(rock.without_new_lists, 0) << precision;
     EXPECT_EQ(gas.without_new_lists, 0) << precision;

@@ -24,11 +24,11 @@ spacing = "1 mm"
 end = "1 ms"
 [[bodies]]
 name = "rock"
-material = "basalt"
+material = "basalt_von_mises"
 shape = ")" + (Dim == 2 ? "rectangle" : "box") +
                            R"("
 size = ["1 mm", "1 mm", "1 mm"]
-[materials.basalt.damage]
+[materials.basalt_von_mises.damage]
 model = "grady_kipp_tensor"
 weibull_m = 8.5
 weibull_k = "5e34 1/m^3"
@@ -144,9 +144,9 @@ TEST(TensorDamageStage, BenzAsphaugGrowsAsTheScalarModelUnderSteadyTension) {
 }
 
 TEST(TensorDamageStage, BrokenRockWithAFrictionLawYieldsByItsLargestEigenvalueAndCutsNoPairs) {
-  const std::vector<std::string> friction{"materials.basalt.strength.model=drucker_prager",
-                                          "materials.basalt.strength.cohesion=10 MPa",
-                                          "materials.basalt.strength.friction_angle=30 deg"};
+  const std::vector<std::string> friction{"materials.basalt_von_mises.strength.model=drucker_prager",
+                                          "materials.basalt_von_mises.strength.cohesion=10 MPa",
+                                          "materials.basalt_von_mises.strength.friction_angle=30 deg"};
   Element<3> element("strain_history", friction), bonded("strain_history");
   EXPECT_FALSE(element.sim->materials[0].cuts_pairs());
   EXPECT_TRUE(bonded.sim->materials[0].cuts_pairs());
@@ -209,12 +209,12 @@ spacing = "1 mm"
 end = "1 s"
 [[bodies]]
 name = "disc"
-material = "basalt"
+material = "basalt_von_mises"
 shape = "disc"
 radius = "6 mm"
 [bodies.profile]
 velocity = ["-40000*y", "40000*x"]
-[materials.basalt.damage]
+[materials.basalt_von_mises.damage]
 model = "grady_kipp_tensor"
 weibull_m = 8.5
 weibull_k = "1e-30 1/m^3"

@@ -59,8 +59,10 @@ TEST(Diagnostics, FacesTakeMomentumAndTorque) {
   boundary.kind[1] = BoundaryKind::periodic;
   EXPECT_TRUE(keeps_momentum(boundary));
   EXPECT_FALSE(keeps_angular_momentum(boundary));
-  boundary.kind[0] = BoundaryKind::reflecting;
-  EXPECT_FALSE(keeps_momentum(boundary) || keeps_angular_momentum(boundary));
+  for (const BoundaryKind mirror : {BoundaryKind::reflecting, BoundaryKind::symmetry}) {
+    boundary.kind[0] = mirror;
+    EXPECT_FALSE(keeps_momentum(boundary) || keeps_angular_momentum(boundary));
+  }
 }
 
 TEST(Diagnostics, ErrorsAreRelative) {

@@ -36,12 +36,14 @@ TEST(Stages, AGasHasNothingOfASolid) {
 
 TEST(Stages, PorousRockHasAllItsOwn) {
   const auto sim = start<3>(porous_impact);
-  EXPECT_EQ(names(sim->stages), (std::vector<std::string>{"neighbours", "equation of state", "strength", "damage",
-                                                          "pair rates", "strain rates", "smoothing lengths"}));
-  for (const Field f : {deviatoric_stress, stress_rate, plastic_strain, distension, stress_factor, Field::damage, crack,
-                        local_strain, flaw_strain, velocity_gradient, density_rate})
+  EXPECT_EQ(names(sim->stages),
+            (std::vector<std::string>{"neighbours", "equation of state", "strength", "damage", "pair rates",
+                                      "strain rates", "viscosity switches", "smoothing lengths"}));
+  for (const Field f :
+       {deviatoric_stress, stress_rate, plastic_strain, distension, stress_factor, Field::damage, crack, local_strain,
+        flaw_strain, velocity_gradient, compression_rate, viscosity_factor, Field::shear_switch, Field::shock_switch})
     EXPECT_TRUE(sim->particles.has(f)) << info(f).name;
-  EXPECT_FALSE(sim->particles.has(Field::shear_switch));
+  for (const Field f : {bond, start_position, stretch}) EXPECT_FALSE(sim->particles.has(f)) << info(f).name;
   EXPECT_FALSE(sim->particles.has(flaw_count));
   EXPECT_TRUE(start<3>(porous_impact, {"materials.pumice.damage.growth=benz_asphaug"})->particles.has(flaw_count));
 }
@@ -50,8 +52,9 @@ TEST(Stages, EachIsThereOnlyOnRequest) {
   const auto list_of = [](const std::vector<std::string>& overrides) {
     return names(start<2>(gas_tube, overrides)->stages);
   };
-  EXPECT_EQ(list_of({"numerics.balsara=true"}),
-            (std::vector<std::string>{"neighbours", "density", "equation of state", "pair rates", "shear switch"}));
+  for (const char* key : {"numerics.balsara=true", "numerics.shock_switch=true"})
+    EXPECT_EQ(list_of({key}), (std::vector<std::string>{"neighbours", "density", "equation of state", "pair rates",
+                                                        "viscosity switches"}));
   EXPECT_EQ(
       list_of({"numerics.density=continuity"}),
       (std::vector<std::string>{"neighbours", "equation of state", "pair rates", "strain rates", "smoothing lengths"}));

@@ -1,0 +1,104 @@
+#pragma once
+/// Random clouds with every field a pass reads, a run of the pass over them, and what must balance in the end.
+#include <Eigen/LU>
+#include <cmath>
+#include <vector>
+
+#include "schemes/pair_pass.hpp"
+#include "unit/particles/cloud.hpp"
+
+namespace ejecta {
+
+inline constexpr double spacing = 0.0013;  ///< of the test clouds [m]
+
+inline PairPassSettings settings_of(Kernel kernel, Precision precision, bool stress, bool correction) {
+  PairPassSettings s;
+  s.kernel = kernel;
+  s.precision = precision;
+  s.stress = stress;
+  s.velocity_gradient = true;
+  s.gradient_correction = correction;
+  s.viscosity_alpha = 1.5;
+  s.viscosity_beta = 2.5;
+  s.length_unit = 1.0 / 1024;
+  return s;
+}
+
+/// n particles of a cloud with that mean spacing, from -0.3 to 0.7 of its edge; every field that rates() reads is
+/// random. Ranges of two materials, two bodies.
+template <int Dim>
+Particles<Dim> random_matter(std::size_t n, unsigned seed, bool stress, double h_spread = 1.5,
+                             std::vector<Field> more = {}) {
+  std::vector<Field> fields{Field::smoothing_length, Field::density,          Field::pressure,
+                            Field::sound_speed,      Field::heating,          Field::neighbour_sum,
+                            Field::approach_speed,   Field::viscosity_factor, Field::velocity_gradient};
+  if (stress) fields.push_back(Field::deviatoric_stress);
+  fields.insert(fields.end(), more.begin(), more.end());
+  Particles<Dim> p = random_cloud<Dim>(n, seed, spacing, h_spread * spacing, fields);
+  Uniform uniform(seed + 1);
+  const double edge = spacing * std::pow(static_cast<double>(n), 1.0 / Dim);
+  for (std::size_t i = 0; i < n; ++i) {
+    for (int a = 0; a < Dim; ++a) {
+      p.column(Field::position, a)[i] = edge * (p.column(Field::position, a)[i] - 0.3);
+      p.column(Field::velocity, a)[i] = uniform(-100, 100);
+    }
+    p.column(Field::mass)[i] = uniform(1, 2) * 2000 * std::pow(spacing, Dim);
+    p.column(Field::density)[i] = uniform(500, 3000);  // some pairs beyond a ratio of 3, where the mean is held
+    p.column(Field::pressure)[i] = uniform(-1e8, 1e9);
+    p.column(Field::sound_speed)[i] = uniform(1000, 3000);
+    p.column(Field::viscosity_factor)[i] = uniform(0, 1);
+    for (int k = 0; stress && k < deviator_size<Dim>; ++k)
+      p.column(Field::deviatoric_stress, k)[i] = uniform(-5e8, 5e8);
+    p.label(Label::material)[i] = p.label(Label::body)[i] = i < n / 3 ? 0 : 1;
+  }
+  p.set_material_ranges({{0, n / 3}, {n / 3, n}});
+  return p;
+}
+
+/// Makes two pieces of a cloud: body 1 is where x > 0.
+template <int Dim>
+void split_in_two(Particles<Dim>& p, PairPassSettings& settings) {
+  for (std::size_t i = 0; i < p.size(); ++i) p.label(Label::body)[i] = p.column(Field::position)[i] > 0;
+  settings.rules.sizes = {spacing, spacing};
+  settings.rules.pieces = {2, 3};
+  settings.touches = true;
+}
+
+/// Lists and a pass for the particles as they are; returns the lists.
+template <int Dim>
+PairLists<Dim> run_rates(Particles<Dim>& p, const PairPassSettings& settings, std::span<const double> intact = {}) {
+  PairLists<Dim> lists;
+  lists.build(p, {kernel_support(settings.kernel), cluster_size(settings.precision), 0, settings.rules.boundary});
+  make_pair_pass<Dim>(settings)->rates(p, lists, intact);
+  return lists;
+}
+
+template <int Dim>
+Mat<Dim> velocity_gradient_of(const Particles<Dim>& p, std::size_t i) {
+  return p.tensor(Field::velocity_gradient, i);
+}
+
+/// Sums over all particles that must vanish, relative to those of the magnitudes of their terms.
+struct Balance {
+  double momentum, angular_momentum, energy;
+};
+template <int Dim>
+Balance balance_of(const Particles<Dim>& p) {
+  Vec<Dim> force = Vec<Dim>::Zero();
+  Mat<Dim> torque = Mat<Dim>::Zero();
+  double energy = 0, force_scale = 0, torque_scale = 0, energy_scale = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const Vec<Dim> f = p.column(Field::mass)[i] * p.vector(Field::acceleration, i), x = p.vector(Field::position, i);
+    const double heat = p.column(Field::mass)[i] * p.column(Field::heating)[i],
+                 work = f.dot(p.vector(Field::velocity, i));
+    force += f;
+    torque += x * f.transpose() - f * x.transpose();
+    energy += heat + work;
+    force_scale += f.norm();
+    torque_scale += x.norm() * f.norm();
+    energy_scale += std::abs(heat) + std::abs(work);
+  }
+  return {force.norm() / force_scale, torque.norm() / torque_scale, std::abs(energy) / energy_scale};
+}
+
+}  // namespace ejecta
