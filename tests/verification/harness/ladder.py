@@ -34,7 +34,7 @@ class Row:
     density: str
     kernel: str
     nodes_per_h: float
-    gradient_correction: bool
+    gradient_correction: str  # auto, true, false
     courant: float
     precision: str
     threads: int
@@ -66,7 +66,7 @@ def rows(case, measurements):
             numerics, error = m.scene["numerics"], m.errors[key]
             result.append(Row(
                 case.name, *key, m.resolution, m.summary["dimension"], numerics["scheme"], numerics["density"],
-                numerics["kernel"], numerics["nodes_per_h"], numerics["gradient_correction"], numerics["courant"],
+                numerics["kernel"], numerics["nodes_per_h"], str(numerics["gradient_correction"]).lower(), numerics["courant"],
                 numerics["precision"], m.summary["threads"], m.summary["particles"], m.summary["steps"], error,
                 order([coarse.resolution, m.resolution], [coarse.errors[key], error]) if coarse else float("nan"),
                 m.core_seconds, m.particle_steps))

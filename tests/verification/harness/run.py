@@ -125,7 +125,7 @@ class Run:
         kinds = [self.scene["boundary"][axis] for axis in "xyz"[:self.dimension]]
         energy = self.history["kinetic energy"] + np.abs(self.history["internal energy"])
         scale = np.sqrt(2 * self.history["mass"] * energy).max()
-        drifts = [np.abs(p - p[0]).max() for axis, kind in zip("xyz", kinds) if kind != "reflecting"
+        drifts = [np.abs(p - p[0]).max() for axis, kind in zip("xyz", kinds) if kind not in ("reflecting", "symmetry")
                   for p in [self.history[f"momentum {axis}"]]]
         return float(max(drifts) / scale) if drifts and scale > 0 else float("nan")
 

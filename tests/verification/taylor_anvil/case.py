@@ -84,7 +84,7 @@ class TaylorAnvil(Case):
 class TaylorTwoRods(Case):
     """Resolution: particles in the radius. Differences relative to the length and to the speed of the rod."""
     name = "taylor_two_rods"
-    title = "one copper rod against a mirror and two against each other"
+    title = "one copper rod at a plane of symmetry and two that are one"
     exact = "the same, particle by particle"
     scene = "two_rods.toml"
     quick = (3,)
@@ -101,7 +101,8 @@ class TaylorTwoRods(Case):
         return {"resolution.spacing": (RADIUS / resolution, "m")}
 
     def errors(self, run, resolution):
-        mirror = again(TaylorAnvil().scene_file, run, "mirror", {"output.snapshots": 0})  # which cut time steps
+        mirror = again(TaylorAnvil().scene_file, run, "mirror",
+                       {"boundary.x": "symmetry", "output.snapshots": 0})  # which cut time steps
         two, one = run.final, mirror.final
         distance, partner = cKDTree(two["position"]).query(one["position"])
         speed = np.abs(two["velocity"][partner] - one["velocity"]).max()
