@@ -49,7 +49,8 @@ class PairPass {
   /// force is the adjoint of the gradient: the work of the stress in L is the heat, and with the viscosity along the
   /// pair linear and angular momentum are exact. Weights by volume keep contacts of very different densities at rest.
   /// q = f rho_ij (-alpha c mu + beta mu^2) is Monaghan's viscosity (1992), f the mean of both factors; rho_ij is
-  /// the mean density, at most twice the lighter one: light matter is not thrown off heavy matter.
+  /// the mean density, at most four times the lighter one (twice, between pieces): light matter is not thrown off heavy
+  /// matter.
   ///
   /// Particles of different pieces, and a solid and a wall, are no neighbours. They press on each other along the pair,
   ///   dv_i/dt += -1/rho_i sum_j V_j (p_i + p_j + q_ij) x_ji (x_ji.g_ij)/r^2,    p_i = max(0, -n_i.sigma_i n_i),

@@ -240,8 +240,11 @@ void PairPassOf<T, Dim, Kind, K>::cluster_rates(Particles<Dim>& particles, const
             limiter = own > T(0) ? limiter : V(touch.weight(p, own) * touch.softness(p, sound_speed));
           }
         const V mu = support.approach(p.pair, p.r2, closing, j);
-        const V lighter = T(2) * simd::min(density, V{} + j[R::density]);
-        const V mean_density = simd::min(V(T(0.5) * (density + j[R::density])), lighter);
+        // Crushed and shocked matter differs by 4 from what is before the front, foreign matter may by 1e4.
+        const V lighter = simd::min(density, V{} + j[R::density]);
+        V mean_density = simd::min(V(T(0.5) * (density + j[R::density])), V(T(4) * lighter));
+        if constexpr (Mixed)
+          if (p.foreign) mean_density = own > T(0) ? mean_density : simd::min(mean_density, V(T(2) * lighter));
         const V viscosity =
             limiter * mean_density * (mu * (beta * mu - half_alpha * (sound_speed + j[R::sound_speed])));
         if (Mixed && p.foreign) {
