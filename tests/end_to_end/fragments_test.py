@@ -14,7 +14,7 @@ spacing = "1 mm"
 end = "5 us"
 [[bodies]]
 name = "target"
-material = "basalt"
+material = "basalt_von_mises"
 shape = "disc"
 radius = "10 mm"
 [[bodies]]
