@@ -34,10 +34,10 @@ class PairPass {
  public:
   virtual ~PairPass() = default;
 
-  /// Density by summation over the volumes that the particles share: rho_i = m_i sum_j W(r_ij, h_i), and the zeroth
-  /// moment. Partners count by number, not by mass, so that a light gas keeps its density beside a heavy one [Ott &
-  /// Schnetter 2003; Hu & Adams 2006].
-  /// reads position, smoothing_length, mass; writes density, neighbour_sum.
+  /// Density by summation over the volumes that the particles share: rho_i = m_i/V0_i sum_j V0_j W(r_ij, h_i) with V0
+  /// the volume of a particle of its body at the start, and the zeroth moment. Partners count by volume, not by mass,
+  /// so that a light gas keeps its density beside a heavy one [Ott & Schnetter 2003; Hu & Adams 2006], and beside
+  /// particles of another size. reads position, smoothing_length, mass; writes density, neighbour_sum.
   virtual void density(Particles<Dim>& particles, const PairLists<Dim>& lists) = 0;
 
   /// Rates by pair forces. V = m/rho; g_ij is the kernel gradient grad_i W_ij, averaged over both particles' h;
@@ -52,11 +52,12 @@ class PairPass {
   /// the mean density, at most four times the lighter one (twice, between pieces): light matter is not thrown off heavy
   /// matter.
   ///
-  /// Particles of different pieces, and a solid and a wall, are no neighbours. They press on each other along the pair,
-  ///   dv_i/dt += -1/rho_i sum_j V_j (p_i + p_j + q_ij) x_ji (x_ji.g_ij)/r^2,    p_i = max(0, -n_i.sigma_i n_i),
-  /// n_i the direction of sum_j V_j g_ij over other pieces, and heat by their own shares of the work: what touches
-  /// pushes, never pulls, and slides. Friction adds min(mu (p_i + p_j + q_ij), rho_ij c |v_t|) against the sliding
-  /// velocity v_t.
+  /// Particles of different pieces, and a solid and a wall, are no neighbours. From where they come within a particle's
+  /// size (PairRecord::touching, w_ij the larger of both) they act on each other by what presses across the contact,
+  ///   dv_i/dt += 1/rho_i sum_j V_j [w_ij (a_ij T'_i + a_ji T'_j) g_ij - q_ij x_ji (x_ji.g_ij)/r^2],
+  /// T' and the strain that goes with it as in gradient_correction.hpp, a_ij = 2 Z_j/(Z_i + Z_j) with the impedances
+  /// Z = rho c: what touches pushes, never pulls, and slides. The viscosity sees what closes the gap alone. Friction
+  /// adds min(mu p, Z |v_t|) against the sliding velocity v_t, p the force across the contact.
   ///
   /// Bonded, particles that hold on to their first neighbours (bond = 1) take W and its gradient at the places of the
   /// start: nothing clumps under tension [Belytschko et al. 2000], and M^-1 brings the deformation in. Bonded particles

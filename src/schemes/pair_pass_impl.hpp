@@ -115,7 +115,7 @@ void PairPassOf<T, Dim, Kind, K>::rates(Particles<Dim>& particles, const PairLis
     for_clusters(lists, [&](std::size_t k) {
       if (mixed_[k])
         look_around<true>(particles, clusters[k], lists.candidates(k));
-      else if (around_.corrects)
+      else if (around_.corrects || Kind.coupled)
         look_around<false>(particles, clusters[k], lists.candidates(k));
     });
   }
@@ -230,7 +230,7 @@ void PairPassOf<T, Dim, Kind, K>::cluster_rates(Particles<Dim>& particles, const
         V dv[Dim], kernel_gradient[Dim], force[Dim];
         for (int a = 0; a < Dim; ++a) dv[a] = j[R::v + a] - v[a];
         p.kernel_gradient(kernel_gradient);
-        const V along = pair_detail::dot(dv, p.dx), central = p.pair.central(p.dx, p.r2);
+        const V along = pair_detail::dot(dv, p.dx), central = p.central();
         V closing = along, limiter = viscosity_factor + j[R::viscosity_factor];
         [[maybe_unused]] V own, uneven[Dim], own_share;  // uneven: what the stress of i gives more than that of j
         if constexpr (Mixed)
@@ -372,14 +372,15 @@ void PairPassOf<T, Dim, Kind, K>::cluster_density(Particles<Dim>& particles, con
     V between[Dim], distance2, w, moment;
     members.template meet<false>(p, between, distance2);
     support.value(between, distance2, w, moment);
-    number.add(1, w);
+    number.add(p.record[R::cell], w);
     sum += moment;
   }
   const double unit_volume = std::pow(settings_.length_unit, Dim);
   for (std::size_t i = c.begin; i < c.end; ++i) {
     const int k = static_cast<int>(i - c.begin);
-    particles.column(Field::density)[i] =
-        particles.column(Field::mass)[i] / unit_volume * support.norm(k) * number.lane(k);
+    particles.column(Field::density)[i] = particles.column(Field::mass)[i] /
+                                          (unit_volume * static_cast<double>(records_[i * R::size + R::cell])) *
+                                          support.norm(k) * number.lane(k);
     particles.column(Field::neighbour_sum)[i] = static_cast<double>(sum[k]);
   }
 }

@@ -101,6 +101,13 @@ struct Partner : Bond<V, Dim, Kind.bonded> {
   const T *record, *touch;  ///< touch: only in mixed clusters
   bool foreign;             ///< in some lane of another piece; only in mixed clusters
 
+  /// What the kernel gradient is along the pair, over its length; of a bond along itself, which may have turned since.
+  V central() const {
+    if constexpr (Kind.bonded)
+      return pair.central(this->between, dot(this->between, this->between));
+    else
+      return pair.central(dx, r2);
+  }
   void kernel_gradient(V (&g)[Dim]) const {
     if constexpr (Kind.bonded)
       pair.gradient(this->between, g);

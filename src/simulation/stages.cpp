@@ -75,8 +75,8 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
   if (bonded) add("bonds", extended({stretch, density}, yields, {plastic_strain}), {bond}, bonds<Dim>);
   if (breaks)
     add("damage",
-        extended(extended(extended(extended({pressure, deviatoric_stress, density, mass}, grady_kipp, {flaw_strain}), dealt,
-                                   {flaw_exponent, flaw_count, smoothing_length}),
+        extended(extended(extended(extended({pressure, deviatoric_stress, density, mass}, grady_kipp, {flaw_strain}),
+                                   dealt, {flaw_exponent, flaw_count, smoothing_length}),
                           scalar_cracks, {crack, local_strain}),
                  tensor_cracks, {damage_tensor, strain_history, velocity_gradient}),
         extended(extended({Field::damage, pressure}, scalar_cracks, {crack, local_strain}), tensor_cracks,
@@ -94,8 +94,10 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
   if (driven) add("driven bodies", {acceleration, velocity, mass}, {acceleration}, driven_bodies<Dim>);
   if (continuity || solid)
     add("strain rates",
-        extended(extended({velocity_gradient, density}, solid, {deviatoric_stress}), variable_shear, {shear_modulus}),
-        extended(extended({}, continuity, {compression_rate}), solid, {stress_rate}), strain_rates<Dim>);
+        extended(extended(extended({velocity_gradient, density}, continuity, {neighbour_sum, smoothing_length, mass}),
+                          solid, {deviatoric_stress}),
+                 variable_shear, {shear_modulus}),
+        extended(extended({}, continuity, {compression_rate, density}), solid, {stress_rate}), strain_rates<Dim>);
   if (balsara || decays)
     add("viscosity switches", {velocity_gradient, sound_speed, smoothing_length},
         extended(extended({viscosity_factor}, balsara, {Field::shear_switch}), decays, {Field::shock_switch}),
