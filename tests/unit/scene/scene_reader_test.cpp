@@ -49,7 +49,7 @@ seed = 12345678901
                                   "s.toml");
   EXPECT_EQ(scene.numerics.kernel, Kernel::quintic_spline);
   EXPECT_EQ(scene.numerics.precision, Precision::mixed);
-  EXPECT_TRUE(scene.numerics.balsara);
+  EXPECT_EQ(scene.numerics.balsara, Switch::on);
   EXPECT_TRUE(scene.insitu.column_density);
   EXPECT_EQ(scene.insitu.on_error, OnError::abort);
   EXPECT_EQ(scene.insitu.ranges.at("pressure").min, -1e6);
