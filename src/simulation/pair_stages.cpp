@@ -21,7 +21,7 @@ double curl(const Mat<Dim>& L) {
 /// times thinner than what its neighbours leave it, and the stress of the next one throws it away. Its density is held
 /// within these shares of mass over spacing, known from the zeroth moment; intact matter stays well within. Only a
 /// particle that has not had to widen its support has all its neighbours, and may be too dense.
-constexpr double least_density_share = 0.6, most_density_share = 2;
+constexpr double least_density_share = 0.6, most_density_share = 1.7;
 constexpr double least_filling = 0.85, widest_support = 1.25;
 
 /// Share of the viscosity that is left where nothing is compressed.
