@@ -34,10 +34,8 @@ class PairPass {
  public:
   virtual ~PairPass() = default;
 
-  /// Density by summation over the volumes that the particles share: rho_i = m_i/V0_i sum_j V0_j W(r_ij, h_i) with V0
-  /// the volume of a particle of its body at the start, and the zeroth moment. Partners count by volume, not by mass,
-  /// so that a light gas keeps its density beside a heavy one [Ott & Schnetter 2003; Hu & Adams 2006], and beside
-  /// particles of another size. reads position, smoothing_length, mass; writes density, neighbour_sum.
+  /// Density by summation: rho_i = sum_j m_j W(r_ij, h_i), and the zeroth moment.
+  /// reads position, smoothing_length, mass; writes density, neighbour_sum.
   virtual void density(Particles<Dim>& particles, const PairLists<Dim>& lists) = 0;
 
   /// Rates by pair forces. V = m/rho; g_ij is the kernel gradient grad_i W_ij, averaged over both particles' h;

@@ -364,7 +364,7 @@ void PairPassOf<T, Dim, Kind, K>::cluster_density(Particles<Dim>& particles, con
                                                   std::span<const std::uint32_t> candidates) const {
   const Members members(c, records_.data());
   const Support support{members.loader()};
-  simd::WideSum<T> number;
+  simd::WideSum<T> density;
   V sum{};
   for (const std::uint32_t index : candidates) {
     Partner p;
@@ -372,15 +372,12 @@ void PairPassOf<T, Dim, Kind, K>::cluster_density(Particles<Dim>& particles, con
     V between[Dim], distance2, w, moment;
     members.template meet<false>(p, between, distance2);
     support.value(between, distance2, w, moment);
-    number.add(p.record[R::cell], w);
+    density.add(p.record[R::mass], w);
     sum += moment;
   }
-  const double unit_volume = std::pow(settings_.length_unit, Dim);
   for (std::size_t i = c.begin; i < c.end; ++i) {
     const int k = static_cast<int>(i - c.begin);
-    particles.column(Field::density)[i] = particles.column(Field::mass)[i] /
-                                          (unit_volume * static_cast<double>(records_[i * R::size + R::cell])) *
-                                          support.norm(k) * number.lane(k);
+    particles.column(Field::density)[i] = support.norm(k) * density.lane(k);
     particles.column(Field::neighbour_sum)[i] = static_cast<double>(sum[k]);
   }
 }

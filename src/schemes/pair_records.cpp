@@ -126,9 +126,7 @@ void PairRecord<T, Dim, Kind>::pack(const Particles<Dim>& particles, const std::
     r[R::volume] = static_cast<T>(mass[i] / density[i] * power<Dim>(to_unit));
     r[R::density] = static_cast<T>(density[i]);
     r[R::sound_speed] = static_cast<T>(sound_speed[i]);
-    r[R::cell] = rules.sizes.empty()
-                     ? T(1)
-                     : static_cast<T>(power<Dim>(rules.sizes[static_cast<std::size_t>(body[i])] * to_unit));
+    r[R::mass] = static_cast<T>(mass[i] * power<Dim>(to_unit));
     r[R::viscosity_factor] = factor.count ? static_cast<T>(0.5 * factor(0, i)) : T(0.5);
     if constexpr (Kind.stress)
       r[R::piece] = rules.pieces.empty() ? T(0) : static_cast<T>(rules.pieces[static_cast<std::size_t>(body[i])]);

@@ -30,7 +30,7 @@ struct RecordScales {
 
 /// Who acts on whom, and how.
 struct PairRules {
-  std::vector<double> sizes;        ///< by body: of a particle at the start [m]; empty: all alike
+  std::vector<double> sizes;        ///< by body: of a particle at the start [m]; needed only with stress
   std::vector<int> pieces;          ///< by body: bodies of one number are one continuum; empty: all are
   std::vector<char> cut_by_cracks;  ///< by material: whether its damage tensor cuts the stress
   Boundary boundary;
@@ -83,8 +83,8 @@ struct PairRecord {
   static constexpr int v = bond + (Kind.bonded ? 1 : 0);                     ///< velocity
   static constexpr int density = v + Dim;                                    ///< rho
   static constexpr int sound_speed = density + 1;
-  static constexpr int cell = sound_speed + 1;         ///< volume of a particle at the start
-  static constexpr int viscosity_factor = cell + 1;    ///< half of it
+  static constexpr int mass = sound_speed + 1;
+  static constexpr int viscosity_factor = mass + 1;    ///< half of it
   static constexpr int stress = viscosity_factor + 1;  ///< T (gradient_correction.hpp), or -P alone [Pa]
   static constexpr int damage = stress + stresses;     ///< damage tensor, if coupled
   static constexpr int size = damage + (Kind.coupled ? symmetric_size<Dim> : 0);
