@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 #include <algorithm>
+#include <cmath>
 
 #include "base/types.hpp"
 
@@ -39,8 +40,11 @@ template <int Dim>
 GradientCorrection<Dim> gradient_correction(const Mat<Dim>& moment) {
   GradientCorrection<Dim> c;
   const Mat<Dim> inverse = moment.inverse();
-  // The Frobenius norm of the inverse is at least its largest stretch: this spares most particles the decomposition.
-  if (inverse.squaredNorm() * least_moment * least_moment < 1) {
+  // The Frobenius norm of the inverse is at least its largest stretch: this spares most particles the decomposition. A
+  // determinant below the least possible one is checked too: that of few neighbours is round-off, and so is the
+  // inverse.
+  const double least_determinant = Dim == 2 ? least_moment * least_moment : least_moment * least_moment * least_moment;
+  if (std::abs(moment.determinant()) >= least_determinant && inverse.squaredNorm() * least_moment * least_moment < 1) {
     c.Q = inverse.transpose();
     return c;
   }
