@@ -3,6 +3,7 @@
 /// pieces do to each other, and sums that make a tensor.
 #include "base/simd.hpp"
 #include "base/types.hpp"
+#include "particles/pair_lists.hpp"
 #include "schemes/pair_records.hpp"
 
 namespace ejecta::pair_detail {
