@@ -22,6 +22,7 @@ struct PairPassSettings {
   bool tensor = false;               ///< smoothing tensors instead of lengths (velocity gradients always stored)
   bool coupled = false;              ///< tensor damage cuts the stress (always with stress)
   bool bonded = false;               ///< some particles keep the neighbours of the start (always with stress)
+  double alike = 4;  ///< weights are those of masses up to this ratio of densities, see rates()
   double viscosity_alpha = 1, viscosity_beta = 2;
   bool touches = false;    ///< there are several pieces, or a solid and a wall
   double friction = 0;     ///< coefficient of friction between pieces
@@ -40,15 +41,20 @@ class PairPass {
 
   /// Rates by pair forces. V = m/rho; g_ij is the kernel gradient grad_i W_ij, averaged over both particles' h;
   /// sigma = -P I + S. Within a piece (PairRules):
-  ///   R_i = sum_j V_j v_ji g_ij^T    M_i = sum_j V_j x_ji g_ij^T    L_i = R_i M_i^-1    T_i = sigma_i M_i^-T
-  ///   dv_i/dt = 1/rho_i sum_j V_j [(T_i + T_j) g_ij - q_ij x_ji (x_ji.g_ij)/r^2]
-  ///   du_i/dt = 1/rho_i [T_i : R_i - 1/2 sum_j V_j q_ij v_ji.x_ji (x_ji.g_ij)/r^2]
+  ///   R_i = sum_j w_ij v_ji g_ij^T    M_i = sum_j w_ij x_ji g_ij^T    L_i = R_i M_i^-1    T_i = sigma_i M_i^-T
+  ///   dv_i/dt = 1/m_i sum_j [(V_i w_ij T_i + V_j w_ji T_j) g_ij - V_i V_j q_ij x_ji (x_ji.g_ij)/r^2]
+  ///   du_i/dt = 1/m_i [V_i T_i : R_i - 1/2 sum_j V_i V_j q_ij v_ji.x_ji (x_ji.g_ij)/r^2]
   /// with L = dv_a/dx_b stored (gradient_correction.hpp: what becomes of few neighbours; M = I if not corrected). The
   /// force is the adjoint of the gradient: the work of the stress in L is the heat, and with the viscosity along the
-  /// pair linear and angular momentum are exact. Weights by volume keep contacts of very different densities at rest.
+  /// pair linear and angular momentum are exact, whatever the weights.
+  ///   w_ij = V0_j r_i s_ij,    V0 = m/rho0,    r = rho0/rho,    rho0 the density of the uncompressed material.
+  /// With s = 1 these are the weights m_j/rho_i of standard SPH (between materials, of their initial volumes): the
+  /// continuity equation is then the time derivative of the sum over masses, and no error of the density is left behind
+  /// by a front that compresses three times. With s_ij = r_j/r_i they are volumes: contacts of very different
+  /// densities stay at rest. s goes from one to the other while the densities differ by `alike` to four times that.
   /// q = f rho_ij (-alpha c mu + beta mu^2) is Monaghan's viscosity (1992), f the mean of both factors; rho_ij is
-  /// the mean density, at most four times the lighter one (twice, between pieces): light matter is not thrown off heavy
-  /// matter.
+  /// the harmonic mean, at most twice the lighter one: light matter is not thrown off heavy matter. In passes without
+  /// stress q acts along g_ij.
   ///
   /// Particles of different pieces, and a solid and a wall, are no neighbours. From where they come within a particle's
   /// size (PairRecord::touching, w_ij the larger of both) they act on each other by what presses across the contact,

@@ -1,6 +1,6 @@
 #pragma once
 /// The pair loop. W particles i sit in the lanes of vector registers; the candidates j of their cluster are broadcast
-/// one by one from their records. Included only by the pair_pass_ and tensor_pass_ files of the kernels.
+/// one by one from their records.
 #include <bit>
 
 #include "base/parallel.hpp"
@@ -37,6 +37,7 @@ class PairPassOf final : public PairPass<Dim> {
   using Members = pair_detail::Members<T, V, R, Dim, Kind.record()>;
   using Partner = pair_detail::Partner<T, V, Dim, Kind.record(), typename Support::Pair>;
   using TensorSum = pair_detail::TensorSum<V, Dim>;
+  using Shares = pair_detail::WeightShares<V>;
 
   RecordScales scales() const {
     return {K::template norm<Dim>, K::support, K::reduced_scale, K::reduced_over_r, settings_.length_unit};
@@ -145,7 +146,7 @@ void PairPassOf<T, Dim, Kind, K>::feel(std::size_t cluster, const PairLists<Dim>
       [&](const Partner& p) {
         if (!p.foreign) return;
         V gradient[Dim], w, unused;
-        const V volume = p.record[R::volume] * (T(1) - members.own(p));
+        const V volume = p.record[R::volume] * p.record[R::expansion] * (T(1) - members.own(p));
         p.kernel_gradient(gradient);
         for (int a = 0; a < Dim; ++a) outward[a] += volume * gradient[a];
         support.value(p.dx, p.r2, w, unused);
@@ -167,6 +168,8 @@ void PairPassOf<T, Dim, Kind, K>::look_around(Particles<Dim>& particles, const C
   const Support support{members.loader()};
   [[maybe_unused]] pair_detail::Touch<T, V, R, Dim> touch;
   if constexpr (Mixed) touch = members.touch(touches_.data(), settings_.friction);
+  const V expansion = members.loader()(R::expansion), compression = members.loader()(R::compression);
+  const T alike = static_cast<T>(settings_.alike);
   constexpr bool along = !Kind.tensor && !Kind.bonded;  // the gradient is along the pair
   std::conditional_t<along, pair_detail::SymmetricSum<V, Dim>, TensorSum> moment;
   [[maybe_unused]] TensorSum touched;
@@ -175,9 +178,10 @@ void PairPassOf<T, Dim, Kind, K>::look_around(Particles<Dim>& particles, const C
       members, support, candidates, R::v, [](const auto&) {},
       [&](const Partner& p) {
         const T volume = p.record[R::volume];
+        const Shares shares(alike, expansion, compression, p.record[R::expansion], p.record[R::compression]);
         V gradient[Dim], weighted[Dim];
         p.kernel_gradient(gradient);
-        for (int b = 0; b < Dim; ++b) weighted[b] = volume * gradient[b];
+        for (int b = 0; b < Dim; ++b) weighted[b] = volume * shares.own * gradient[b];
         if constexpr (Mixed)
           if (p.foreign) {
             const V own = members.own(p);
@@ -185,7 +189,7 @@ void PairPassOf<T, Dim, Kind, K>::look_around(Particles<Dim>& particles, const C
             touch.shares(p, own_share, other_share);
             const V weight = touch.weight(p, own) * own_share;
             for (int b = 0; b < Dim; ++b) {
-              others[b] = weight * weighted[b];
+              others[b] = weight * (volume * gradient[b]);
               weighted[b] *= own;
             }
             touched.add(p.dx, others);
@@ -195,8 +199,9 @@ void PairPassOf<T, Dim, Kind, K>::look_around(Particles<Dim>& particles, const C
       });
   for (std::size_t i = c.begin; i < c.end; ++i) {
     const int k = static_cast<int>(i - c.begin);
-    around_.sums[i].moment = moment.of_lane(k);
-    if constexpr (Mixed) around_.sums[i].touched = touched.of_lane(k);
+    const double expansion = static_cast<double>(records_[i * R::size + R::expansion]);
+    around_.sums[i].moment = expansion * moment.of_lane(k);
+    if constexpr (Mixed) around_.sums[i].touched = expansion * touched.of_lane(k);
     if constexpr (Kind.bonded) particles.column(Field::stretch)[i] = std::sqrt(static_cast<double>(stretch2[k]));
   }
 }
@@ -214,7 +219,9 @@ void PairPassOf<T, Dim, Kind, K>::cluster_rates(Particles<Dim>& particles, const
   if constexpr (Kind.coupled) {
     for (int s = 0; s < symmetric_size<Dim>; ++s) damage[s] = load(R::damage + s);
   }
+  const V expansion = load(R::expansion), compression = load(R::compression);
   const V density = load(R::density), sound_speed = load(R::sound_speed), viscosity_factor = load(R::viscosity_factor);
+  const T alike = static_cast<T>(settings_.alike);
   const T half_alpha = static_cast<T>(0.5 * settings_.viscosity_alpha), beta = static_cast<T>(settings_.viscosity_beta);
   [[maybe_unused]] pair_detail::Touch<T, V, R, Dim> touch;
   if constexpr (Mixed) touch = members.touch(touches_.data(), settings_.friction);
@@ -231,6 +238,7 @@ void PairPassOf<T, Dim, Kind, K>::cluster_rates(Particles<Dim>& particles, const
         for (int a = 0; a < Dim; ++a) dv[a] = j[R::v + a] - v[a];
         p.kernel_gradient(kernel_gradient);
         const V along = pair_detail::dot(dv, p.dx), central = p.central();
+        const Shares shares(alike, expansion, compression, j[R::expansion], j[R::compression]);
         V closing = along, limiter = viscosity_factor + j[R::viscosity_factor];
         [[maybe_unused]] V own, uneven[Dim], own_share;  // uneven: what the stress of i gives more than that of j
         if constexpr (Mixed)
@@ -240,54 +248,68 @@ void PairPassOf<T, Dim, Kind, K>::cluster_rates(Particles<Dim>& particles, const
             limiter = own > T(0) ? limiter : V(touch.weight(p, own) * touch.softness(p, sound_speed));
           }
         const V mu = support.approach(p.pair, p.r2, closing, j);
-        // Crushed and shocked matter differs by 4 from what is before the front, foreign matter may by 1e4.
-        const V lighter = simd::min(density, V{} + j[R::density]);
-        V mean_density = simd::min(V(T(0.5) * (density + j[R::density])), V(T(4) * lighter));
-        if constexpr (Mixed)
-          if (p.foreign) mean_density = own > T(0) ? mean_density : simd::min(mean_density, V(T(2) * lighter));
-        const V viscosity =
-            limiter * mean_density * (mu * (beta * mu - half_alpha * (sound_speed + j[R::sound_speed])));
-        if (Mixed && p.foreign) {
-          if constexpr (Mixed) {
-            V ours[R::stresses], theirs[R::stresses], other_share;
-            touch.shares(p, own_share, other_share);
-            own_share *= touch.weight(p, own);
-            other_share *= touch.weight(p, own);
-            for (int s = 0; s < R::stresses; ++s) {
-              // Rounded before the sum, as in the kernels: seen from j it must be the same number.
-              ours[s] = own > T(0) ? stress[s] : simd::rounded(V(own_share * touch.press[s]));
-              theirs[s] = own > T(0) ? V{} + j[R::stress + s] : simd::rounded(V(other_share * p.touch[R::press + s]));
-            }
-            pair_detail::contract<true, Dim>(ours, theirs, kernel_gradient, force);
-            if constexpr (R::split) pair_detail::contract<true, Dim, -1>(ours, theirs, kernel_gradient, uneven);
+        const V mean_density = T(2) * density * j[R::density] / (density + j[R::density]);
+        const V viscosity = limiter * (expansion * j[R::expansion]) * mean_density *
+                            (mu * (beta * mu - half_alpha * (sound_speed + j[R::sound_speed])));
+        // In single precision always: both sides of a pair must round alike, whatever else is in their clusters.
+        if (R::split || (Mixed && p.foreign) || !shares.even()) {
+          V ours[R::stresses], theirs[R::stresses];
+          for (int s = 0; s < R::stresses; ++s) {
+            ours[s] = shares.own * stress[s];
+            theirs[s] = shares.other * j[R::stress + s];
           }
+          if constexpr (Mixed)
+            if (p.foreign) {
+              V other_share;
+              touch.shares(p, own_share, other_share);
+              own_share *= touch.weight(p, own);
+              other_share *= touch.weight(p, own);
+              for (int s = 0; s < R::stresses; ++s) {
+                ours[s] = own > T(0) ? ours[s] : V(own_share * touch.press[s]);
+                theirs[s] = own > T(0) ? theirs[s] : V(other_share * p.touch[R::press + s]);
+              }
+            }
+          // Rounded before the sum, as in the kernels: seen from j it must be the same number.
+          for (int s = 0; s < R::stresses; ++s) {
+            ours[s] = simd::rounded(ours[s]);
+            theirs[s] = simd::rounded(theirs[s]);
+          }
+          pair_detail::contract<Kind.stress, Dim>(ours, theirs, kernel_gradient, force);
+          if constexpr (R::split) pair_detail::contract<Kind.stress, Dim, -1>(ours, theirs, kernel_gradient, uneven);
         } else {
           pair_detail::contract<Kind.stress, Dim>(stress, j + R::stress, kernel_gradient, force);
           if constexpr (R::split)
             pair_detail::contract<Kind.stress, Dim, -1>(stress, j + R::stress, kernel_gradient, uneven);
         }
-        const V push = viscosity * central;
-        for (int a = 0; a < Dim; ++a) force[a] -= push * p.dx[a];
+        V drag[Dim];
+        for (int a = 0; a < Dim; ++a) {
+          // With corrected gradients no torque is left but that of a viscosity off the pair's axis. Elsewhere that of
+          // smoothing tensors follows their gradient: across shocks it is the better one.
+          drag[a] = viscosity * (Kind.stress ? V(central * p.dx[a]) : kernel_gradient[a]);
+          force[a] -= drag[a];
+        }
         if constexpr (R::split) {
           // Half of the work of the very force that acts, and what the two stresses differ by: the first is the same
           // number for j, the second its negative, so that no rounding is left between work and heat.
           for (int a = 0; a < Dim; ++a) heat.add_product(volume, force[a], dv[a]);
           heat.add(volume, pair_detail::dot(uneven, dv));
         } else {
-          heat.add(-volume, V(push * along));
+          heat.add(-volume, pair_detail::dot(dv, drag));
         }
         if constexpr (Mixed)
           if (p.foreign && touch.friction > 0)
-            friction_heat.add(volume, touch.rub(p, dv, own, force, V(central * simd::square_root(p.r2))));
+            friction_heat.add(
+                volume,
+                touch.rub(p, dv, own, force, V((expansion * j[R::expansion]) * (central * simd::square_root(p.r2)))));
         for (int a = 0; a < Dim; ++a) acceleration[a].add(volume, force[a]);
         if constexpr (Kind.gradient) {
           V weighted[Dim];
-          for (int b = 0; b < Dim; ++b) weighted[b] = volume * kernel_gradient[b];
+          for (int b = 0; b < Dim; ++b) weighted[b] = volume * shares.own * kernel_gradient[b];
           if constexpr (Mixed)
             if (p.foreign) {
               V others[Dim];
               for (int b = 0; b < Dim; ++b) {
-                others[b] = own > T(0) ? V{} : V(own_share * weighted[b]);
+                others[b] = own > T(0) ? V{} : V(own_share * (volume * kernel_gradient[b]));
                 weighted[b] *= own;
               }
               touched.add(dv, others);
@@ -303,7 +325,7 @@ void PairPassOf<T, Dim, Kind, K>::cluster_rates(Particles<Dim>& particles, const
             }
           }
         } else {
-          divergence += volume * pair_detail::dot(dv, kernel_gradient);
+          divergence += volume * shares.own * pair_detail::dot(dv, kernel_gradient);
         }
         fastest = simd::min(fastest, V(p.pair.moment > 0 ? mu : V{}));
       });
@@ -311,23 +333,24 @@ void PairPassOf<T, Dim, Kind, K>::cluster_rates(Particles<Dim>& particles, const
   const double per_unit = 1 / settings_.length_unit, unit_volume = std::pow(settings_.length_unit, Dim);
   for (std::size_t i = c.begin; i < c.end; ++i) {
     const int k = static_cast<int>(i - c.begin);
-    // V/m of the record, not 1/rho: both sides of a pair must use the same two volumes.
+    // V0/m of the record, not 1/rho0: both sides of a pair must use the same two volumes.
     const double specific_volume =
         static_cast<double>(records_[i * R::size + R::volume]) * unit_volume / particles.column(Field::mass)[i];
     for (int a = 0; a < Dim; ++a)
       particles.column(Field::acceleration, a)[i] = specific_volume * per_unit * acceleration[a].lane(k);
+    const double expanded = static_cast<double>(records_[i * R::size + R::expansion]);
     double work = 0;  // of the stress, sigma : L
     if constexpr (Kind.gradient) {
       const Mat<Dim> raw = gradient.of_lane(k);
       work = pair_detail::double_contract<Kind.stress, Dim>(stress, k, raw);
-      Mat<Dim> L = raw;
+      Mat<Dim> L = expanded * raw;
       if constexpr (Kind.stress) {
         const auto& sums = around_.sums[i];
-        L = around_.correction(sums.moment).gradient(raw);
+        L = around_.correction(sums.moment).gradient(expanded * raw);
         if constexpr (Mixed)
           if (!sums.touched.isZero(0)) {
             const Mat<Dim> others = touched.of_lane(k);
-            const Mat<Dim> all = around_.correction(sums.moment + sums.touched).gradient(raw + others);
+            const Mat<Dim> all = around_.correction(sums.moment + sums.touched).gradient(expanded * (raw + others));
             L = touching_gradient<Dim>(L, all, sums.normal(), touch.pressed(k));
             work += pair_detail::double_contract<true, Dim>(touch.press, k, others);
           }
@@ -335,8 +358,8 @@ void PairPassOf<T, Dim, Kind, K>::cluster_rates(Particles<Dim>& particles, const
       pair_detail::store(particles, Field::velocity_gradient, i, Mat<Dim>(per_unit * L));
       if constexpr (Kind.coupled)
         pair_detail::store(particles, Field::coupled_gradient, i,
-                           Mat<Dim>(per_unit * gradient_correction<Dim>(around_.sums[i].moment - cut_moment.of_lane(k))
-                                                   .gradient(raw - cut.of_lane(k))));
+                           Mat<Dim>(per_unit * gradient_correction<Dim>(around_.sums[i].moment - expanded * cut_moment.of_lane(k))
+                                                   .gradient(expanded * (raw - cut.of_lane(k)))));
     } else {
       work = static_cast<double>(stress[0][k]) * static_cast<double>(divergence[k]);
     }
@@ -380,38 +403,6 @@ void PairPassOf<T, Dim, Kind, K>::cluster_density(Particles<Dim>& particles, con
     particles.column(Field::density)[i] = support.norm(k) * density.lane(k);
     particles.column(Field::neighbour_sum)[i] = static_cast<double>(sum[k]);
   }
-}
-
-/// The pass of one kernel for what the settings ask, with smoothing lengths.
-template <int Dim, class K>
-std::unique_ptr<PairPass<Dim>> make_isotropic_pass_of(const PairPassSettings& s) {
-  auto of_precision = [&]<class T>(T) -> std::unique_ptr<PairPass<Dim>> {
-    auto of = [&]<PassKind Kind>() { return std::make_unique<PairPassOf<T, Dim, Kind, K>>(s); };
-    constexpr bool stress = true, gradient = true;
-    if (s.stress && s.bonded) return of.template operator()<PassKind{stress, gradient, false, false, true}>();
-    if (s.stress) return of.template operator()<PassKind{stress, gradient}>();
-    if (s.velocity_gradient) return of.template operator()<PassKind{!stress, gradient}>();
-    return of.template operator()<PassKind{}>();
-  };
-  return s.precision == Precision::mixed ? of_precision(float{}) : of_precision(double{});
-}
-
-/// The same with smoothing tensors or with stress cut off by cracks: both always with velocity gradients.
-template <int Dim, class K>
-std::unique_ptr<PairPass<Dim>> make_tensor_pass_of(const PairPassSettings& s) {
-  auto of_precision = [&]<class T>(T) -> std::unique_ptr<PairPass<Dim>> {
-    auto of = [&]<PassKind Kind>() -> std::unique_ptr<PairPass<Dim>> {
-      constexpr PassKind bonded{Kind.stress, Kind.gradient, Kind.tensor, Kind.coupled, Kind.stress};
-      if (Kind.stress && s.bonded) return std::make_unique<PairPassOf<T, Dim, bonded, K>>(s);
-      return std::make_unique<PairPassOf<T, Dim, Kind, K>>(s);
-    };
-    constexpr bool stress = true, gradient = true, tensor = true, coupled = true;
-    if (s.coupled && s.tensor) return of.template operator()<PassKind{stress, gradient, tensor, coupled}>();
-    if (s.coupled) return of.template operator()<PassKind{stress, gradient, !tensor, coupled}>();
-    if (s.stress) return of.template operator()<PassKind{stress, gradient, tensor}>();
-    return of.template operator()<PassKind{!stress, gradient, tensor}>();
-  };
-  return s.precision == Precision::mixed ? of_precision(float{}) : of_precision(double{});
 }
 
 }  // namespace ejecta

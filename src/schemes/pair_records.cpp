@@ -104,7 +104,7 @@ void PairRecord<T, Dim, Kind>::pack(const Particles<Dim>& particles, const std::
       start(particles, Field::start_position), bond(particles, Field::bond), factor(particles, Field::viscosity_factor);
   const auto h = particles.column(Field::smoothing_length), mass = particles.column(Field::mass),
              density = particles.column(Field::density), sound_speed = particles.column(Field::sound_speed);
-  const auto body = particles.label(Label::body);
+  const auto body = particles.label(Label::body), material = particles.label(Label::material);
   parallel_for(0, n, [&](std::size_t i) {
     T* r = records.data() + i * R::size;
     for (std::size_t a = 0; a < Dim; ++a) {
@@ -123,7 +123,10 @@ void PairRecord<T, Dim, Kind>::pack(const Particles<Dim>& particles, const std::
       r[R::slope_norm] = static_cast<T>(0.5 * scales.slope * scales.kernel_norm * power<Dim>(h_reciprocal) *
                                         h_reciprocal * (scales.slope_over_r ? 1 : h_reciprocal));
     }
-    r[R::volume] = static_cast<T>(mass[i] / density[i] * power<Dim>(to_unit));
+    const double reference = rules.reference_density[static_cast<std::size_t>(material[i])];
+    r[R::volume] = static_cast<T>(mass[i] / reference * power<Dim>(to_unit));
+    r[R::expansion] = static_cast<T>(reference / density[i]);
+    r[R::compression] = static_cast<T>(density[i] / reference);
     r[R::density] = static_cast<T>(density[i]);
     r[R::sound_speed] = static_cast<T>(sound_speed[i]);
     r[R::mass] = static_cast<T>(mass[i] * power<Dim>(to_unit));
@@ -197,8 +200,9 @@ void PairRecord<T, Dim, Kind>::pack_stress(const Particles<Dim>& particles, cons
   const Columns<Dim> deviatoric_stress(particles, Field::deviatoric_stress), damage(particles, Field::damage_tensor);
   parallel_for(0, n, [&](std::size_t i) {
     T* r = records.data() + i * R::size;
+    const double expansion = static_cast<double>(r[R::expansion]), squared = expansion * expansion;
     if constexpr (!Kind.stress) {
-      r[R::stress] = static_cast<T>(-pressure[i]);
+      r[R::stress] = static_cast<T>(-squared * pressure[i]);
     } else {
       const double scale = intact.empty() ? 1.0 : intact[i];
       auto deviator = [&](std::size_t k) { return scale * deviatoric_stress(k, i); };
@@ -218,10 +222,10 @@ void PairRecord<T, Dim, Kind>::pack_stress(const Particles<Dim>& particles, cons
       const auto [own, touched] = corrected<Dim>(sigma, around, i);
       for (int a = 0; a < Dim; ++a)
         for (int b = 0; b < Dim; ++b) {
-          r[R::stress + a * Dim + b] = static_cast<T>(own(a, b));
+          r[R::stress + a * Dim + b] = static_cast<T>(squared * own(a, b));
           if (!touches.empty())
             touches[i * R::touch_size + static_cast<std::size_t>(R::press + a * Dim + b)] =
-                static_cast<T>(touched(a, b));
+                static_cast<T>(squared * touched(a, b));
         }
     }
   });

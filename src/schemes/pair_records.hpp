@@ -30,9 +30,10 @@ struct RecordScales {
 
 /// Who acts on whom, and how.
 struct PairRules {
-  std::vector<double> sizes;        ///< by body: of a particle at the start [m]; needed only with stress
-  std::vector<int> pieces;          ///< by body: bodies of one number are one continuum; empty: all are
-  std::vector<char> cut_by_cracks;  ///< by material: whether its damage tensor cuts the stress
+  std::vector<double> sizes;              ///< by body: of a particle at the start [m]; needed only with stress
+  std::vector<int> pieces;                ///< by body: bodies of one number are one continuum; empty: all are
+  std::vector<double> reference_density;  ///< by material: rho0 [kg/m^3]
+  std::vector<char> cut_by_cracks;        ///< by material: whether its damage tensor cuts the stress
   Boundary boundary;
 };
 
@@ -48,7 +49,7 @@ struct Surroundings {
     Vec<Dim> outward = Vec<Dim>::Zero();  ///< sum over other pieces of V_j grad W, in 1/length_unit
     double occupied = 0;                  ///< sum over other pieces of V_j W
     /// Towards what is touched; 0 if nothing is.
-    Vec<Dim> normal() const { return occupied > 0 ? Vec<Dim>(outward.normalized()) : outward; }
+    Vec<Dim> normal() const { return occupied > 0 ? Vec<Dim>(outward.normalized()) : Vec<Dim>(Vec<Dim>::Zero()); }
   };
   std::vector<Sums> sums;
   bool corrects = false;  ///< gradients are corrected by M
@@ -75,8 +76,10 @@ struct PairRecord {
   static constexpr int reach_reciprocal = h + 1;       ///< 1/(support h), unless tensor
   static constexpr int metric = h;                     ///< G = H H, if tensor
   static constexpr int slope_norm = h + (Kind.tensor ? symmetric_size<Dim> : 2);
-  static constexpr int volume = slope_norm + 1;                ///< V = m/rho
-  static constexpr int piece = volume + 1;                     ///< with stress
+  static constexpr int volume = slope_norm + 1;                ///< V0 = m/rho0, uncompressed
+  static constexpr int expansion = volume + 1;                 ///< r = rho0/rho
+  static constexpr int compression = expansion + 1;            ///< 1/r
+  static constexpr int piece = compression + 1;                ///< with stress
   static constexpr int place = piece + (Kind.stress ? 1 : 0);  ///< at the start, if bonded
   static constexpr int place_low = place + (Kind.bonded ? Dim : 0);
   static constexpr int bond = place_low + (Kind.bonded && split ? Dim : 0);  ///< support h of a bonded particle, else 0
@@ -85,14 +88,14 @@ struct PairRecord {
   static constexpr int sound_speed = density + 1;
   static constexpr int mass = sound_speed + 1;
   static constexpr int viscosity_factor = mass + 1;    ///< half of it
-  static constexpr int stress = viscosity_factor + 1;  ///< T (gradient_correction.hpp), or -P alone [Pa]
+  static constexpr int stress = viscosity_factor + 1;  ///< r^2 T (gradient_correction.hpp), or -r^2 P alone [Pa]
   static constexpr int damage = stress + stresses;     ///< damage tensor, if coupled
   static constexpr int size = damage + (Kind.coupled ? symmetric_size<Dim> : 0);
 
   // A record of its own, for touching pieces only.
   static constexpr int touching = 0;          ///< how far other pieces are touched, 0 to 1
   static constexpr int normal = 1;            ///< unit vector towards them, or 0
-  static constexpr int press = normal + Dim;  ///< T' that acts on them [Pa]
+  static constexpr int press = normal + Dim;  ///< r^2 T' that acts on them [Pa]
   static constexpr int touch_size = press + stresses;
 
   /// Fills one record for each particle, then one for each image, but for stress and what touches other pieces.

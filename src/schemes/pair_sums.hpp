@@ -47,6 +47,22 @@ V along(const Tensor& d, const V (&x)[Dim]) {
   }
 }
 
+/// Shares s_ij and s_ji of the weights of a pair of neighbours (PairPass::rates), by their expansions r and
+/// compressions c = 1/r: 1 while their densities differ by less than `alike`, those of volumes where by four times that.
+template <class V>
+struct WeightShares {
+  V own, other, mass;  ///< mass: 1 where weights are those of masses, 0 where those of volumes
+
+  template <class T>
+  WeightShares(T alike, V r_i, V c_i, T r_j, T c_j) {
+    const V i_over_j = simd::rounded(V(r_j * c_i)), j_over_i = simd::rounded(V(r_i * c_j));  // of densities
+    mass = simd::max(simd::min(V((T(4) * alike - (i_over_j + j_over_i)) * (1 / (T(3) * alike))), V{} + T(1)), V{});
+    own = mass + (T(1) - mass) * i_over_j;
+    other = mass + (T(1) - mass) * j_over_i;
+  }
+  bool even() const { return !simd::any_less(mass, V{} + 1); }
+};
+
 /// Sum over partners of a b^T.
 template <class V, int Dim>
 struct TensorSum {
@@ -120,7 +136,7 @@ struct Partner : Bond<V, Dim, Kind.bonded> {
 /// What passes between pieces that touch. All lanes; the caller keeps to those of other pieces.
 template <class T, class V, class R, int Dim>
 struct Touch {
-  V touching, impedance, normal[Dim], velocity[Dim], press[R::stresses];
+  V touching, impedance, expansion, compression, normal[Dim], velocity[Dim], press[R::stresses];
   T friction;
 
   /// Whether lane k passes stress on to others.
@@ -136,11 +152,12 @@ struct Touch {
   }
   /// What i feels of j and j of i, by the impedances rho c of both, 2 in all: as where two waves meet, the softer one
   /// decides what stress there is at the contact. A solid hardly notices the gas beside it, which feels it as a wall.
+  /// Times the share that makes the weights those of volumes.
   template <class Partner>
   void shares(const Partner& p, V& own_share, V& other_share) const {
     const V other = V{} + p.record[R::density] * p.record[R::sound_speed];
-    other_share = T(2) * impedance / (impedance + other);
-    own_share = T(2) * other / (impedance + other);
+    other_share = T(2) * impedance / (impedance + other) * (expansion * p.record[R::compression]);
+    own_share = T(2) * other / (impedance + other) * (p.record[R::expansion] * compression);
   }
   /// Factor of the viscosity: the mean sound speed in it is at most twice the lower one.
   template <class Partner>
@@ -270,6 +287,8 @@ struct Members {
     Touch<T, V, R, Dim> t;
     t.touching = load_touch(R::touching);
     t.impedance = load(R::density) * load(R::sound_speed);
+    t.expansion = load(R::expansion);
+    t.compression = load(R::compression);
     for (int a = 0; a < Dim; ++a) {
       t.normal[a] = load_touch(R::normal + a);
       t.velocity[a] = load(R::v + a);

@@ -1,4 +1,4 @@
-#include "schemes/pair_pass_impl.hpp"
+#include "schemes/pair_pass_kinds.hpp"
 
 namespace ejecta {
 template std::unique_ptr<PairPass<2>> make_tensor_pass_of<2, QuinticSpline>(const PairPassSettings&);

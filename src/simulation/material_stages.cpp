@@ -57,7 +57,7 @@ void dense_state(Simulation<Dim>& sim, const EosT& eos, Range range, const Shear
 }
 
 /// Matter that is drawn out or shocked beyond this goes on without the neighbours of the start.
-constexpr double longest_stretch = 3, most_compressed = 1.5;
+constexpr double longest_stretch = 2, most_compressed = 1.25;
 
 }  // namespace
 

@@ -62,10 +62,14 @@ void hold_density(Simulation<Dim>& sim, const Material& material, double share, 
   density = std::max(density, std::min(least, whole * reach));
   const Body& body = sim.scene.bodies[static_cast<std::size_t>(p.label(Label::body)[i])];
   const double h0 = target * sim.scene.spacing * body.spacing_factor;
+  // Whatever has compressed condensed matter, quasi-statically or by a shock, has left it the energy for that: what is
+  // within its reach is not too dense, however few neighbours a surface has. Only vapour, which its heat would carry
+  // anywhere, is held below its own density too.
+  const double own = reach < 2 ? whole * reach : whole / reach;
   // A front that crushes pores brings planes of particles four times nearer along one axis alone: mass over spacing
   // means little there.
   if (!material.porosity && nodes > least_filling * target && h < widest_support * h0)
-    density = std::min(density, std::max(most, whole / reach));
+    density = std::min(density, std::max(most, own));
 }
 
 }  // namespace

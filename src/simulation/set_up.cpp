@@ -150,12 +150,18 @@ std::unique_ptr<Simulation<Dim>> set_up(const Scene& scene, const std::vector<Ma
   settings.velocity_gradient = sim->particles.has(Field::velocity_gradient);
   settings.tensor = sim->particles.has(Field::smoothing_metric);
   settings.coupled = sim->particles.has(Field::coupled_gradient);
-  for (const Material& m : materials) settings.rules.cut_by_cracks.push_back(m.cuts_pairs());
+  for (const Material& m : materials) {
+    settings.rules.reference_density.push_back(m.bulk_density());
+    settings.rules.cut_by_cracks.push_back(m.cuts_pairs());
+  }
   for (const Body& body : scene.bodies) settings.rules.sizes.push_back(scene.spacing * body.spacing_factor);
   settings.rules.pieces = pieces_of(scene, materials, sim->body_material);
   settings.rules.boundary = scene.boundary;
   settings.touches = settings.bonded || anything_touches(scene, settings.rules.pieces);
   settings.friction = scene.contact.friction;
+  // Sums of masses spread a contact over a kernel, and weights by mass go with them as far as those hold; densities by
+  // continuity jump there.
+  settings.alike = numerics.density == DensityMethod::summation ? 64 : 4;
   settings.viscosity_alpha = numerics.viscosity_alpha;
   settings.viscosity_beta = numerics.viscosity_beta;
   settings.length_unit = power_of_two_below(scene.spacing);

@@ -23,8 +23,8 @@ def with_mirrors(x, v, reach):
 
 def viscous_power(state, alpha, beta):
     """W: sum over pairs V_i V_j q_ij v_ij.x_ij (x_ij.grad W_ij)/r^2 (src/schemes/pair_pass.hpp), with mu of Monaghan
-    (1992, section 4.1, with 0.01 h^2)."""
-    h, rho, c, factor = (state[name] for name in ("smoothing_length", "density", "sound_speed", "viscosity_factor"))
+    (1992, section 4.1, with 0.01 h^2), without switches."""
+    h, rho, c = (state[name] for name in ("smoothing_length", "density", "sound_speed"))
     volume = state.volume
     x, v, source = with_mirrors(state["position"], state["velocity"], 2 * h.max())
     pairs = cKDTree(x).query_pairs(2 * h.max(), output_type="ndarray")
@@ -37,7 +37,7 @@ def viscous_power(state, alpha, beta):
     r, approach = np.linalg.norm(dx, axis=1), np.minimum(np.sum(dx * dv, axis=1), 0)
     mean_h = (h[i] + h[j]) / 2
     mu = mean_h * approach / (r**2 + 0.01 * mean_h**2)
-    mean_rho = np.minimum((rho[i] + rho[j]) / 2, 2 * np.minimum(rho[i], rho[j]))
-    q = (factor[i] + factor[j]) / 2 * mean_rho * (-alpha * (c[i] + c[j]) / 2 * mu + beta * mu**2)
+    mean_rho = 2 * rho[i] * rho[j] / (rho[i] + rho[j])
+    q = mean_rho * (-alpha * (c[i] + c[j]) / 2 * mu + beta * mu**2)
     slope = (slope_wendland_c2(r, h[i]) + slope_wendland_c2(r, h[j])) / 2
     return float(np.sum(share * volume[i] * volume[j] * q * slope * approach / r))
