@@ -66,7 +66,8 @@ void expect_balance(const Kind& kind, Precision precision, double share) {
   const Balance b = balance_of(p);
   const bool mixed = precision == Precision::mixed;
   EXPECT_LT(b.momentum, 1e-14);
-  EXPECT_LT(b.energy, mixed ? 1e-14 : 1e-13);
+  // In single precision each relative velocity is rounded, by up to 6e-8; over thousands of pairs that averages out.
+  EXPECT_LT(b.energy, mixed ? 1e-8 : 1e-13);
   // Friction acts across the line between two centres.
   if (kind.friction == 0) {
     EXPECT_LT(b.angular_momentum, mixed ? 1e-7 : 1e-13);
@@ -102,7 +103,8 @@ void expect_antisymmetry(const Kind& kind, Precision precision) {
     auto p = random_matter<Dim>(2, trial, kind.stress, 2, more);
     if (kind.tensor) random_ellipsoids(p, 2, trial);
     for (std::size_t i = 0; i < 2; ++i) {
-      p.column(Field::mass)[i] = std::ldexp(1.0, i == 0 ? -18 : -16);
+      // Voluminous enough to touch across two pieces: about one and seven cubes of the spacing, one and nine squares.
+      p.column(Field::mass)[i] = std::ldexp(1.0, (Dim == 3 ? -18 : -8) + (i == 0 ? 0 : 2));
       p.column(Field::density)[i] = std::ldexp(1.0, i == 0 ? 11 : 10);
     }
     settings.friction = kind.friction;

@@ -97,7 +97,7 @@ class Reference {
       const Pair q = pair(i, j);
       const View& other = views_[j];
       sums.moment -= kernel_.slope(q.eta_i);
-      sums.density += column(Field::mass, i) * kernel_.norm * own.H.determinant() * kernel_.value(q.eta_i);
+      sums.density += column(Field::mass, j) * kernel_.norm * own.H.determinant() * kernel_.value(q.eta_i);
       sums.stretch = std::max(sums.stretch, q.stretch);
       if (q.r == 0) continue;
 
@@ -112,16 +112,18 @@ class Reference {
       const double mean_h = 0.5 * (h + column(Field::smoothing_length, j));
       const double mu = std::min(0.0, closing) * (settings_.tensor ? q.eta / (q.eta * q.eta + 0.01) / q.r
                                                                    : mean_h / (q.r * q.r + 0.01 * mean_h * mean_h));
-      const double mean_rho = std::min(0.5 * (rho + rho_j), 2 * std::min(rho, rho_j));
+      const double mean_rho = 2 / (1 / rho + 1 / rho_j);
       const double viscosity =
-          f * mean_rho * (-settings_.viscosity_alpha * 0.5 * (c + c_j) * mu + settings_.viscosity_beta * mu * mu) *
-          q.central;
+          f * mean_rho * (-settings_.viscosity_alpha * 0.5 * (c + c_j) * mu + settings_.viscosity_beta * mu * mu);
+      const Vec<Dim> drag = viscosity * (settings_.stress ? Vec<Dim>(q.central * q.x) : q.g);
       if (q.eta_i < kernel_.support) sums.approach = std::max(sums.approach, -mu);
 
-      const Mat<Dim> ours = q.own ? own.own : Mat<Dim>(share(i, j) * own.press),
-                     theirs = q.own ? other.own : Mat<Dim>(share(j, i) * other.press);
-      Vec<Dim> force = (ours + theirs) * q.g - viscosity * q.x;
-      double heat = q.v.dot(ours * q.g) - 0.5 * viscosity * q.v.dot(q.x);
+      // V_i w_ij and V_j w_ji, relative to V_i V_j.
+      const double ours_share = weight(i, j) / other.V, theirs_share = weight(j, i) / own.V;
+      const Mat<Dim> ours = q.own ? Mat<Dim>(ours_share * own.own) : Mat<Dim>(share(i, j) * own.press),
+                     theirs = q.own ? Mat<Dim>(theirs_share * other.own) : Mat<Dim>(share(j, i) * other.press);
+      Vec<Dim> force = (ours + theirs) * q.g - drag;
+      double heat = q.v.dot(ours * q.g) - 0.5 * q.v.dot(drag);
       if (!q.own && settings_.friction > 0 && n.norm() > 0) {
         n.normalize();
         // A wall rests: the image of what slides to the right slides to the left.
@@ -129,20 +131,21 @@ class Reference {
         if (other.piece == wall) slide = -p_.vector(Field::velocity, j) - p_.vector(Field::velocity, i);
         slide -= slide.dot(n) * n;
         const double push = std::max(0.0, -force.dot(n));
-        const Vec<Dim> drag =
+        const Vec<Dim> rub =
             std::min(settings_.friction * push, std::min(own.Z, other.Z) * slide.norm() * q.central * q.r) *
             slide.normalized();
-        force += drag;
-        heat += 0.5 * drag.dot(slide);
+        force += rub;
+        heat += 0.5 * rub.dot(slide);
       }
       sums.acceleration += other.V / rho * force;
       sums.heating += other.V / rho * heat;
-      const double strain = other.V * q.v.norm() * q.g.norm();
-      sums.acceleration_scale += other.V / rho * ((ours.norm() + theirs.norm()) * q.g.norm() + viscosity * q.r);
-      sums.heating_scale += (ours.norm() + theirs.norm()) / rho * strain + other.V / rho * viscosity * q.r * q.v.norm();
-      sums.gradient_scale += strain;
+      const double gradient_weight = q.own ? weight(i, j) : other.V, strain = other.V * q.v.norm() * q.g.norm();
+      sums.acceleration_scale += other.V / rho * ((ours.norm() + theirs.norm()) * q.g.norm() + drag.norm());
+      sums.heating_scale += (ours.norm() + theirs.norm()) / rho * strain + other.V / rho * drag.norm() * q.v.norm();
+      sums.gradient_scale += gradient_weight * q.v.norm() * q.g.norm();
 
-      const Mat<Dim> add = other.V * q.v * q.g.transpose(), add_moment = other.V * q.x * q.g.transpose();
+      const Mat<Dim> add = gradient_weight * q.v * q.g.transpose(),
+                     add_moment = gradient_weight * q.x * q.g.transpose();
       if (!q.own) {
         touched += share(i, j) * add;
         continue;
@@ -176,7 +179,7 @@ class Reference {
   struct View {
     Mat<Dim> G, H, own, press = Mat<Dim>::Zero(), moment = Mat<Dim>::Zero(), touched = Mat<Dim>::Zero();
     Vec<Dim> normal = Vec<Dim>::Zero();
-    double V, Z, touching = 0;
+    double V, r, Z, touching = 0;  ///< r: rho0/rho
     int piece = 0;
   };
   struct Pair {
@@ -228,6 +231,8 @@ class Reference {
         view.H = Eigen::SelfAdjointEigenSolver<Mat<Dim>>(p_.symmetric(Field::smoothing_metric, i)).operatorSqrt();
       view.G = view.H * view.H;
       view.V = column(Field::mass, i) / column(Field::density, i);
+      const auto material = static_cast<std::size_t>(p_.label(Label::material)[i]);
+      view.r = settings_.rules.reference_density.at(material) / column(Field::density, i);
       view.Z = column(Field::density, i) * column(Field::sound_speed, i);
       if (!pieces.empty()) view.piece = pieces[static_cast<std::size_t>(p_.label(Label::body)[i])];
       if (i < copies_.size() && copies_[i].behind_wall && view.piece != 0) view.piece = wall;
@@ -244,7 +249,7 @@ class Reference {
       for (std::size_t j = 0; j < all; ++j) {
         const Pair q = pair(i, j);
         if (q.own)
-          view.moment += views_[j].V * q.x * q.g.transpose();
+          view.moment += weight(i, j) * q.x * q.g.transpose();
         else
           view.touched += share(i, j) * views_[j].V * q.x * q.g.transpose();
       }
@@ -285,6 +290,13 @@ class Reference {
     const double half_size_away = half_space(0.5 * size / column(Field::smoothing_length, i));
     views_[i].touching = std::clamp((occupied / half_size_away - 1) / 0.02, 0.0, 1.0);
     views_[i].normal = outward.normalized();
+  }
+  /// w_ij of neighbours, V0_j r_i s_ij with V0 = V/r: from s = 1 to the ratio of volumes as r_i/r_j + r_j/r_i goes from
+  /// `alike` to four times that.
+  double weight(std::size_t i, std::size_t j) const {
+    const double ratio = views_[j].r / views_[i].r, differ = ratio + 1 / ratio;
+    const double volumes = std::clamp((differ / settings_.alike - 1) / 3, 0.0, 1.0);
+    return views_[j].V / views_[j].r * views_[i].r * (1 + volumes * (ratio - 1));
   }
   double touching_pair(std::size_t i, std::size_t j) const { return std::max(views_[i].touching, views_[j].touching); }
   /// Share of i in a contact with j: the softer of two decides.

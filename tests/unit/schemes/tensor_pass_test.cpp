@@ -21,6 +21,8 @@ Particles<Dim> tensor_matter(std::size_t n, unsigned seed, bool stress, bool cra
   for (const Field f : plain.fields())
     for (int k = 0; k < components(info(f).shape, Dim); ++k)
       std::ranges::copy(plain.column(f, k), p.column(f, k).begin());
+  for (const Label label : {Label::body, Label::material})
+    std::ranges::copy(plain.label(label), p.label(label).begin());
   p.set_material_ranges(plain.material_ranges());
   random_ellipsoids(p, 4, seed + 2);
   Uniform uniform(seed + 3);
@@ -100,7 +102,7 @@ TEST(TensorPass, RoundEllipsoidsGiveWhatSmoothingLengthsGive) {
   }
 }
 
-TEST(TensorPass, DensityIsTheOwnMassTimesTheNumberInTheEllipsoid) {
+TEST(TensorPass, DensityIsTheSumOverTheMassesInTheEllipsoid) {
   auto p = tensor_matter<3>(200, 44, false, false);
   const auto settings = tensor_settings(Kernel::wendland_c2, Precision::double_precision, false, false);
   PairLists<3> lists;

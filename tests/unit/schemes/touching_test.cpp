@@ -13,14 +13,15 @@ template <int Dim>
 void expect_formulas(PairPassSettings settings, double h_share) {
   std::vector<Field> more;
   if (settings.tensor) more.push_back(Field::smoothing_metric);
-  auto p = random_matter<Dim>(200, 51, true, 1.5, more);
+  auto p = random_matter<Dim>(300, 51, true, 1.5, more);
   for (double& h : p.column(Field::smoothing_length)) h *= h_share;
   if (settings.tensor) random_ellipsoids(p, 3, 52);
   split_in_two(p, settings);
   sort_in_space(p, cluster_size(settings.precision));
   run_rates(p, settings);
   const Reference<Dim> reference(p, settings);
-  const double tolerance = settings.precision == Precision::mixed ? 2e-5 : 2e-13;
+  // Contact sets in over a fiftieth of what fills the support, so that round-off there counts fifty times.
+  const double tolerance = settings.precision == Precision::mixed ? 5e-5 : 5e-13;
   std::size_t pressed = 0;
   for (std::size_t i = 0; i < p.size(); ++i) {
     const Sums<Dim> sums = reference.rates(i);
@@ -83,6 +84,7 @@ Particles<2> layers(double left_pressure, double right_pressure, double gap = -o
     const int column = static_cast<int>(i) / high, row = static_cast<int>(i) % high;
     const bool right = column >= wide / 2;
     p.label(Label::body)[i] = right;
+    p.label(Label::material)[i] = 0;
     p.set_vector(Field::position, i,
                  spacing * Vec<2>(column + 0.5 - wide / 2, row + 0.5 - high / 2) + Vec<2>(right ? gap : 0, 0));
     p.set_vector(Field::velocity, i, Vec<2>::Zero());
@@ -101,8 +103,8 @@ PairPassSettings layer_settings() {
   settings.rules.sizes = {spacing, spacing};
   settings.rules.pieces = {2, 3};
   settings.rules.boundary.kind[1] = BoundaryKind::periodic;
-  settings.rules.boundary.min[1] = -6 * spacing;
-  settings.rules.boundary.max[1] = 6 * spacing;
+  settings.rules.boundary.min = {-1, -6 * spacing, 0};
+  settings.rules.boundary.max = {1, 6 * spacing, 0};
   settings.touches = true;
   return settings;
 }
