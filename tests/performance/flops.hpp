@@ -1,7 +1,7 @@
 #pragma once
 /// Floating-point operations counted in the source: additions, subtractions, multiplications and divisions are one
-/// each, comparisons and signs none. Reciprocals and roots count as the Newton steps that make them (base/simd.hpp).
-/// What the caller holds in registers for a whole loop is not counted.
+/// each, comparisons and signs none. Reciprocals count as the Newton steps that make them (base/simd.hpp), roots as
+/// one. What the caller holds in registers for a whole loop is not counted.
 #include "scene/scene.hpp"
 
 namespace ejecta::flops {
@@ -14,7 +14,6 @@ struct PairWork {
 };
 
 constexpr int reciprocal(bool mixed) { return mixed ? 3 : 6; }
-constexpr int reciprocal_sqrt(bool mixed) { return mixed ? 5 : 9; }
 
 constexpr int kernel_slope(Kernel kernel) {
   switch (kernel) {
@@ -28,6 +27,20 @@ constexpr int kernel_slope(Kernel kernel) {
       break;
   }
   return 10;
+}
+/// Of the shorter form that the pair loop takes.
+constexpr int reduced_slope(Kernel kernel) {
+  switch (kernel) {
+    case Kernel::cubic_spline:
+      return 5;
+    case Kernel::quintic_spline:
+      return 13;
+    case Kernel::wendland_c2:
+      return 2;
+    case Kernel::wendland_c4:
+      break;
+  }
+  return 6;
 }
 constexpr int kernel_value(Kernel kernel) {
   switch (kernel) {
@@ -50,28 +63,32 @@ constexpr bool needs_reciprocal_of_q(Kernel kernel) {
 constexpr int separation(const PairWork& w) { return w.dim * (w.mixed ? 3 : 1) + 2 * w.dim - 1; }
 
 /// PairPass::rates (schemes/pair_pass_impl.hpp, schemes/support.hpp): one lane and one candidate, to see whether it is
-/// within reach.
+/// within reach; once for the moments too, where gradients are corrected.
 constexpr int pair_reach(const PairWork& w) {
-  return separation(w) + 1 + reciprocal_sqrt(w.mixed) + 3 + 2 * kernel_slope(w.kernel) +
-         (needs_reciprocal_of_q(w.kernel) ? 2 : 0) + 4 + 1 + 1;
+  const int distances = 1 + 4, slopes = 2 * reduced_slope(w.kernel) + 3;
+  const int over_r = needs_reciprocal_of_q(w.kernel) ? 2 : 0, moment = needs_reciprocal_of_q(w.kernel) ? 1 : 3;
+  return (w.correction ? 2 : 1) * (separation(w) + distances + slopes + over_r + moment);
 }
-/// The same: one lane and one partner within reach of any lane, for what passes between them.
+/// The same: one lane and one partner within reach of any lane, for what passes between them. Partners are about as
+/// dense as their neighbours; in single precision the shares of their weights are applied all the same.
 constexpr int pair_exchange(const PairWork& w) {
-  const int stresses = w.stress ? w.dim * (w.dim + 1) / 2 : 1;
-  const int approach_and_work = w.dim + w.dim + 2 * (2 * w.dim - 1);
-  const int viscosity = 2 + 4 + reciprocal(w.mixed) + 2 + 4 + 4 + 2;
-  const int force = stresses + (w.stress ? w.dim * (1 + 2 * w.dim - 1) : 1 + w.dim);
-  const int sums = 2 * w.dim + 3;
-  const int gradient = w.gradient ? w.dim + 2 * w.dim * w.dim : 2;
-  const int correction = w.correction ? w.dim * (w.dim + 1) : 0;
-  return approach_and_work + viscosity + force + sums + gradient + correction;
+  const int dim = w.dim, dot = 2 * dim - 1;
+  const int stresses = w.stress ? dim * dim : 1;
+  const int shares = 2 + 3 + 3 + 2;
+  const int differences_and_gradient = dim + dim + dot;
+  const int viscosity = 1 + 5 + 3 + 9 + (w.stress ? 2 : 1) * dim;
+  const int contraction = stresses + (w.stress ? dim * dot : dim);
+  const int force = (w.mixed ? 2 * contraction + 2 * stresses : contraction) + dim;
+  const int work = w.mixed ? 3 * dim + dot + 2 : dot + 2;
+  const int gradient = w.gradient ? 1 + dim + 2 * dim * dim : 1 + dot + 2;
+  const int moment = w.correction ? shares + dim + 1 + dim + dim * (dim + 1) : 0;
+  return shares + differences_and_gradient + viscosity + force + work + 2 * dim + gradient + moment;
 }
 
 /// One lane and one candidate of PairPass::density.
 constexpr int pair_density(const PairWork& w) {
   const int reciprocal_of_q = needs_reciprocal_of_q(w.kernel) ? 1 + reciprocal(w.mixed) : 0;
-  return separation(w) + 1 + reciprocal_sqrt(w.mixed) + 2 + kernel_value(w.kernel) + 2 + kernel_slope(w.kernel) + 2 +
-         reciprocal_of_q;
+  return separation(w) + 1 + 1 + 2 + kernel_value(w.kernel) + 2 + kernel_slope(w.kernel) + 2 + reciprocal_of_q;
 }
 
 /// One evaluation of the residual of the distension: the condensed branch of Tillotson's equation (33), the pressure of

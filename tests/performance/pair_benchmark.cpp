@@ -27,6 +27,7 @@ struct PairCase {
     settings.stress = work.stress;
     settings.velocity_gradient = work.gradient;
     settings.gradient_correction = work.correction;
+    for (const Material& m : sim.materials) settings.rules.reference_density.push_back(m.bulk_density());
     settings.length_unit = power_of_two_below(sim.scene.spacing);
     const std::size_t cluster = cluster_size(settings.precision);
     spatial_order(sim.particles, cluster, sim.order);
