@@ -14,7 +14,7 @@ namespace ejecta {
 /// Which of its parts a pass has; what is left out costs nothing.
 struct PassKind {
   bool stress = false, gradient = false, tensor = false, coupled = false, bonded = false;
-  constexpr RecordKind record() const { return {stress, tensor, coupled, bonded}; }
+  constexpr RecordKind record() const { return {stress, tensor, coupled, bonded, gradient}; }
 };
 
 template <class T, int Dim, PassKind Kind, class K>
@@ -137,14 +137,14 @@ void PairPassOf<T, Dim, Kind, K>::feel(std::size_t cluster, const PairLists<Dim>
   const auto candidates = lists.candidates(cluster);
   const Members members(c, records_.data());
   for (std::size_t i = c.begin; i < c.end; ++i) around_.sums[i] = {};
-  mixed_[cluster] = members.mixed(candidates);
-  if (!mixed_[cluster]) return;
+  if (!members.mixed(candidates)) return;
   const Support support{members.loader()};
   V outward[Dim] = {}, occupied{};
   for_partners<true>(
       members, support, candidates, R::v, [](const auto&) {},
       [&](const Partner& p) {
         if (!p.foreign) return;
+        mixed_[cluster] = 1;  // by who is within reach alone: how far lists reach must not change how sums round
         V gradient[Dim], w, unused;
         const V volume = p.record[R::volume] * p.record[R::expansion] * (T(1) - members.own(p));
         p.kernel_gradient(gradient);
@@ -219,6 +219,11 @@ void PairPassOf<T, Dim, Kind, K>::cluster_rates(Particles<Dim>& particles, const
   if constexpr (Kind.coupled) {
     for (int s = 0; s < symmetric_size<Dim>; ++s) damage[s] = load(R::damage + s);
   }
+  [[maybe_unused]] V smooth, strain[symmetric_size<Dim>];
+  if constexpr (Kind.gradient) {
+    smooth = load(R::smooth);
+    for (int s = 0; s < symmetric_size<Dim>; ++s) strain[s] = load(R::strain + s);
+  }
   const V expansion = load(R::expansion), compression = load(R::compression);
   const V density = load(R::density), sound_speed = load(R::sound_speed), viscosity_factor = load(R::viscosity_factor);
   const T alike = static_cast<T>(settings_.alike);
@@ -239,12 +244,17 @@ void PairPassOf<T, Dim, Kind, K>::cluster_rates(Particles<Dim>& particles, const
         p.kernel_gradient(kernel_gradient);
         const V along = pair_detail::dot(dv, p.dx), central = p.central();
         const Shares shares(alike, expansion, compression, j[R::expansion], j[R::compression]);
-        V closing = along, limiter = viscosity_factor + j[R::viscosity_factor];
+        V closing = along;
+        if constexpr (Kind.gradient)
+          closing -= (smooth + j[R::smooth]) * pair_detail::smooth_closing(pair_detail::along<Dim>(strain, p.dx),
+                                                                           pair_detail::along<Dim>(j + R::strain, p.dx),
+                                                                           along);
+        V limiter = viscosity_factor + j[R::viscosity_factor];
         [[maybe_unused]] V own, uneven[Dim], own_share;  // uneven: what the stress of i gives more than that of j
         if constexpr (Mixed)
           if (p.foreign) {
             own = members.own(p);
-            closing = touch.closing(p, dv, along, own);
+            closing = own > T(0) ? closing : touch.closing(p, dv, along);
             limiter = own > T(0) ? limiter : V(touch.weight(p, own) * touch.softness(p, sound_speed));
           }
         const V mu = support.approach(p.pair, p.r2, closing, j);
