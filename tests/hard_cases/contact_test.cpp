@@ -51,8 +51,7 @@ std::unique_ptr<Simulation<2>> broken_blocks(double gap, double closing_speed,
 
 /// Broken matter has lost its tension, not its bulk. Where two broken blocks meet at 100 m/s the pressure comes back;
 /// it should be that of the collision, rho0 u (c0 + s u) with u = 50 m/s, c0 = sqrt(A/rho0) and, for Tillotson with A =
-/// B and a + b = 2, s = 1.5 within a tenth: 0.43 GPa. Two thirds of it are seen, as viscosity brakes the faces over the
-/// three spacings where their kernels overlap before they touch and the sides let go soon. Nothing ever pulls.
+/// B and a + b = 2, s = 1.5 within a tenth: 0.43 GPa. A tenth more is seen, as the front rings. Nothing ever pulls.
 TEST(Contact, PressureReturnsWhereBrokenBlocksMeet) {
   const auto sim = broken_blocks(3e-3, 100);
   const double collision = 2700 * 50 * (std::sqrt(26.7e9 / 2700) + 1.5 * 50);
@@ -63,11 +62,23 @@ TEST(Contact, PressureReturnsWhereBrokenBlocksMeet) {
     lowest = std::min(lowest, std::ranges::min(sim->particles.column(Field::pressure)));
   }
   const Totals now = totals(sim->particles);
-  std::printf("[ contact ] highest pressure %.3g Pa, %.2f of the collision's\n", highest, highest / collision);
+  // Momentum of the left block. The pressure c u rho0 acts on what the release from the sides has not reached at speed
+  // c: on average for H/4c, at most for H/2c, over a length L of matter; then rho0 u^2/2 does for 30 us.
+  double of_left = 0, mass_of_left = 0;
+  for (std::size_t i = 0; i < sim->particles.size(); ++i) {
+    if (sim->particles.label(Label::body)[i] != 0) continue;
+    of_left += sim->particles.column(Field::mass)[i] * sim->particles.column(Field::velocity, 0)[i];
+    mass_of_left += sim->particles.column(Field::mass)[i];
+  }
+  const double u = 50, H = 16e-3, L = 20e-3, slowed = u - of_left / mass_of_left;
+  std::printf("[ contact ] highest pressure %.3g Pa, %.2f of the collision's; slowed by %.3g m/s\n", highest,
+              highest / collision, slowed);
   EXPECT_EQ(lowest, 0);
-  EXPECT_GT(highest, 0.55 * collision);
-  EXPECT_LT(highest, 1.1 * collision);
-  EXPECT_LT(now.kinetic, 0.5 * sim->initial.kinetic) << "they have stopped each other";
+  EXPECT_GT(highest, 0.8 * collision);
+  EXPECT_LT(highest, 1.2 * collision);
+  EXPECT_GT(slowed, u * H / (4 * L));
+  EXPECT_LT(slowed, u * H / (2 * L) + 0.5 * u * u / L * 30e-6);
+  EXPECT_GT(now.kinetic, 0.7 * sim->initial.kinetic) << "such weak shocks hardly heat";
   EXPECT_LT(std::abs(now.momentum[0]), 1e-13 * now.momentum_scale);
 }
 

@@ -62,14 +62,16 @@ double mean_difference(const std::vector<double>& a, const std::vector<double>& 
   return sum / static_cast<double>(a.size());
 }
 
-/// The damage of a fortieth of the bar is right, 0.013 on average, for tolerances up to 1e-7, the limit a scene may
-/// set. At 1e-5 three to ten times as much breaks; at 1e-3 the pressure of a particle also wanders a hundred times as
-/// far.
+/// At the wall P = rho0 U u and u^2 = P (alpha0 - alpha)/rho_s put 14 MPa and alpha = 1.62 behind a front of U = 195
+/// m/s. It crushes a thirtieth of the bar, to a damage of 0.67: 0.021 on average, and somewhat less as the deviator
+/// bears a part. For tolerances up to 1e-7, the limit a scene may set, that is right to a hundredth. At 1e-5 two to six
+/// times as much breaks; at 1e-3 the pressure of a particle also wanders forty times as far.
 TEST(DistensionTolerance, DamageOscillatesAboveAMillionthAndNotAtAllBelow) {
   const Outcome exact = crush(DistensionSolver::safe_newton, 1e-12);
   double mean_damage = 0;
   for (const double d : exact.damage) mean_damage += d / static_cast<double>(exact.damage.size());
-  EXPECT_NEAR(mean_damage, 0.0132, 0.002);
+  EXPECT_GT(mean_damage, 0.8 * 0.021);
+  EXPECT_LT(mean_damage, 0.021);
   for (const auto solver : {DistensionSolver::safe_newton, DistensionSolver::bisection})
     for (const double tolerance : {1e-9, 1e-7, 1e-5, 1e-4, 1e-3}) {
       const Outcome outcome = crush(solver, tolerance);
@@ -78,11 +80,11 @@ TEST(DistensionTolerance, DamageOscillatesAboveAMillionthAndNotAtAllBelow) {
       std::printf("[ tolerance %.0e ] damage off by %.1e, pressure path %.3f of the exact one\n", tolerance, off,
                   wandering);
       if (tolerance <= 1e-7) {
-        EXPECT_LT(off, 1e-5);
-        EXPECT_NEAR(wandering, 1, 0.01);
+        EXPECT_LT(off, 0.01 * mean_damage);
+        EXPECT_NEAR(wandering, 1, 0.03);
       } else {
-        EXPECT_GT(off, 2 * mean_damage);
-        EXPECT_GT(wandering, tolerance < 1e-3 ? 1.2 : 50);
+        EXPECT_GT(off, mean_damage);
+        EXPECT_GT(wandering, tolerance < 1e-3 ? 1.1 : 20);
       }
     }
 }

@@ -37,7 +37,7 @@ TEST(Strength, NeverAboveYield) {
             s *= first.scale;
             ASSERT_LE(equivalent_stress<3>(s), yield * (1 + 1e-15));
             const RadialReturn second = radial_return<3>(s, yield, 1e10);
-            ASSERT_GE(second.scale, 1 - 4e-16);
+            ASSERT_GE(second.scale, 1 - 1e-15);  // by how far the first may miss the yield stress
             ASSERT_LE(second.plastic_strain, 1e-15 * yield / 1e10);
           }
         },
