@@ -25,7 +25,6 @@ enum class Field {
   neighbour_sum,
   velocity_gradient,
   coupled_gradient,
-  shear_switch,
   shock_switch,
   viscosity_factor,
   approach_speed,

@@ -52,7 +52,7 @@ void describe(Describer& d, Numerics& n) {
   d.choice("balsara", n.balsara,
            "shear switch on the viscosity, which leaves turning matter undamped; auto: unless all is ideal gas");
   d.choice("shock_switch", n.shock_switch,
-                  "the viscosity decays to a tenth where no shock has come by; auto: unless all is ideal gas");
+           "no viscosity in smooth flow, where no shock has come by; auto: unless all is ideal gas");
   d.choice("bonds", n.bonds,
            "elastic matter keeps the neighbours of the start; auto: where it bears strains above a twentieth");
   d.number("viscosity_alpha", n.viscosity_alpha, "1", non_negative, "linear coefficient of Monaghan's viscosity");

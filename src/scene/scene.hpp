@@ -72,7 +72,7 @@ struct Numerics {
   int shape_interval = 10;        ///< ASPH: steps between votes on the shape of H; between them it moves with the flow
   Switch gradient_correction = Switch::automatic;  ///< gradients exact for linear fields, and forces their adjoint
   Switch balsara = Switch::off;                    ///< shear switch on the viscosity
-  Switch shock_switch = Switch::automatic;         ///< the viscosity decays where there is no shock
+  Switch shock_switch = Switch::automatic;         ///< no viscosity in smooth flow
   Switch bonds = Switch::automatic;                ///< elastic matter holds on to the neighbours of the start
   double viscosity_alpha = 1;                      ///< linear coefficient of Monaghan's viscosity
   double viscosity_beta = 2;                       ///< quadratic coefficient

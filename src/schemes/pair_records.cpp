@@ -55,6 +55,7 @@ void mirror(T* record, int axis) {
   record[R::v + axis] = -record[R::v + axis];
   if constexpr (Kind.tensor) mirror_symmetric<Dim>(record + R::metric, axis);
   if constexpr (Kind.coupled) mirror_symmetric<Dim>(record + R::damage, axis);
+  if constexpr (Kind.strained) mirror_symmetric<Dim>(record + R::strain, axis);
 }
 
 /// The same of a tensor stored row by row.
@@ -84,6 +85,17 @@ TouchingStress<Dim> corrected(const Mat<Dim>& sigma, const Surroundings<Dim>& ar
   return touching_stress<Dim>(sigma, sums.normal(), own, around.correction(sums.moment + sums.touched));
 }
 
+/// The symmetric part of a velocity gradient [1/s].
+template <int Dim>
+Symmetric<Dim> rate_of_strain(const Mat<Dim>& L) {
+  Symmetric<Dim> e;
+  for (int a = 0, k = Dim; a < Dim; ++a) {
+    e[a] = L(a, a);
+    for (int b = a + 1; b < Dim; ++b, ++k) e[k] = 0.5 * (L(a, b) + L(b, a));
+  }
+  return e;
+}
+
 bool behind_a_wall(const Boundary& boundary, const Image& image) {
   for (std::size_t a = 0; a < 3; ++a)
     if (image.mirror[a] != 0 && boundary.kind[a] == BoundaryKind::reflecting) return true;
@@ -101,7 +113,8 @@ void PairRecord<T, Dim, Kind>::pack(const Particles<Dim>& particles, const std::
   const double to_unit = 1 / scales.length_unit;
   const Columns<Dim> position(particles, Field::position), velocity(particles, Field::velocity),
       metric(particles, Field::smoothing_metric), damage(particles, Field::damage_tensor),
-      start(particles, Field::start_position), bond(particles, Field::bond), factor(particles, Field::viscosity_factor);
+      start(particles, Field::start_position), bond(particles, Field::bond), factor(particles, Field::viscosity_factor),
+      shocked(particles, Field::shock_switch);
   const auto h = particles.column(Field::smoothing_length), mass = particles.column(Field::mass),
              density = particles.column(Field::density), sound_speed = particles.column(Field::sound_speed);
   const auto body = particles.label(Label::body), material = particles.label(Label::material);
@@ -139,6 +152,11 @@ void PairRecord<T, Dim, Kind>::pack(const Particles<Dim>& particles, const std::
         set_position<T, R>(r, R::place + axis, R::place_low + axis, start(a, i) * to_unit);
       }
       r[R::bond] = static_cast<T>(bond(0, i) * scales.support * h[i] * to_unit);
+    }
+    if constexpr (Kind.strained) {
+      r[R::smooth] = shocked.count ? static_cast<T>(0.5 * (1 - shocked(0, i))) : T(0);
+      const Symmetric<Dim> rate = rate_of_strain<Dim>(particles.tensor(Field::velocity_gradient, i));
+      for (int k = 0; k < symmetric_size<Dim>; ++k) r[R::strain + k] = static_cast<T>(rate[k] * scales.length_unit);
     }
     if constexpr (Kind.coupled) {
       const Symmetric<Dim> cracks = cracks_of(particles, damage, rules, i);
@@ -246,18 +264,19 @@ void PairRecord<T, Dim, Kind>::pack_stress(const Particles<Dim>& particles, cons
   }
 }
 
-// stress, tensor, coupled, bonded
-#define EJECTA_RECORDS(T, DIM)                                              \
-  template struct PairRecord<T, DIM, RecordKind{}>;                         \
-  template struct PairRecord<T, DIM, RecordKind{false, true}>;              \
-  template struct PairRecord<T, DIM, RecordKind{true, false}>;              \
-  template struct PairRecord<T, DIM, RecordKind{true, true}>;               \
-  template struct PairRecord<T, DIM, RecordKind{true, false, true}>;        \
-  template struct PairRecord<T, DIM, RecordKind{true, true, true}>;         \
-  template struct PairRecord<T, DIM, RecordKind{true, false, false, true}>; \
-  template struct PairRecord<T, DIM, RecordKind{true, true, false, true}>;  \
-  template struct PairRecord<T, DIM, RecordKind{true, false, true, true}>;  \
-  template struct PairRecord<T, DIM, RecordKind{true, true, true, true}>;
+// stress, tensor, coupled, bonded, strained
+#define EJECTA_RECORDS(T, DIM)                                                      \
+  template struct PairRecord<T, DIM, RecordKind{}>;                                 \
+  template struct PairRecord<T, DIM, RecordKind{false, false, false, false, true}>; \
+  template struct PairRecord<T, DIM, RecordKind{false, true, false, false, true}>;  \
+  template struct PairRecord<T, DIM, RecordKind{true, false, false, false, true}>;  \
+  template struct PairRecord<T, DIM, RecordKind{true, true, false, false, true}>;   \
+  template struct PairRecord<T, DIM, RecordKind{true, false, true, false, true}>;   \
+  template struct PairRecord<T, DIM, RecordKind{true, true, true, false, true}>;    \
+  template struct PairRecord<T, DIM, RecordKind{true, false, false, true, true}>;   \
+  template struct PairRecord<T, DIM, RecordKind{true, true, false, true, true}>;    \
+  template struct PairRecord<T, DIM, RecordKind{true, false, true, true, true}>;    \
+  template struct PairRecord<T, DIM, RecordKind{true, true, true, true, true}>;
 EJECTA_RECORDS(double, 2)
 EJECTA_RECORDS(double, 3)
 EJECTA_RECORDS(float, 2)

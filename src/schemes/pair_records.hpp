@@ -13,10 +13,11 @@ namespace ejecta {
 
 /// What the records of a pass hold.
 struct RecordKind {
-  bool stress = false;   ///< the stress as a tensor, corrected, and whom it acts on; not pressure alone
-  bool tensor = false;   ///< the smoothing metric, not a smoothing length
-  bool coupled = false;  ///< the damage tensor (only with stress)
-  bool bonded = false;   ///< the place at the start (only with stress)
+  bool stress = false;    ///< the stress as a tensor, corrected, and whom it acts on; not pressure alone
+  bool tensor = false;    ///< the smoothing metric, not a smoothing length
+  bool coupled = false;   ///< the damage tensor (only with stress)
+  bool bonded = false;    ///< the place at the start (only with stress)
+  bool strained = false;  ///< the rate of strain (always with stress or tensor)
 };
 
 /// Constants of a pass that its records hold as factors, so that the pair loop has less to do.
@@ -90,7 +91,9 @@ struct PairRecord {
   static constexpr int viscosity_factor = mass + 1;    ///< half of it
   static constexpr int stress = viscosity_factor + 1;  ///< r^2 T (gradient_correction.hpp), or -r^2 P alone [Pa]
   static constexpr int damage = stress + stresses;     ///< damage tensor, if coupled
-  static constexpr int size = damage + (Kind.coupled ? symmetric_size<Dim> : 0);
+  static constexpr int smooth = damage + (Kind.coupled ? symmetric_size<Dim> : 0);  ///< half of 1 - shock_switch
+  static constexpr int strain = smooth + (Kind.strained ? 1 : 0);                   ///< times length_unit
+  static constexpr int size = strain + (Kind.strained ? symmetric_size<Dim> : 0);
 
   // A record of its own, for touching pieces only.
   static constexpr int touching = 0;          ///< how far other pieces are touched, 0 to 1
@@ -100,7 +103,7 @@ struct PairRecord {
 
   /// Fills one record for each particle, then one for each image, but for stress and what touches other pieces.
   /// Reads position, velocity, smoothing_length or smoothing_metric, mass, density, sound_speed, and where they exist
-  /// viscosity_factor, damage_tensor, start_position and bond.
+  /// viscosity_factor, shock_switch, velocity_gradient, damage_tensor, start_position and bond.
   static void pack(const Particles<Dim>& particles, const std::vector<Image>& images, const PairRules& rules,
                    const RecordScales& scales, std::vector<T>& records);
 

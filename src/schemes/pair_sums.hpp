@@ -4,6 +4,7 @@
 #include "base/simd.hpp"
 #include "base/types.hpp"
 #include "particles/pair_lists.hpp"
+#include "schemes/kernels.hpp"
 #include "schemes/pair_records.hpp"
 
 namespace ejecta::pair_detail {
@@ -45,6 +46,19 @@ V along(const Tensor& d, const V (&x)[Dim]) {
     return x[0] * (d[0] * x[0] + d[3] * x[1] + d[4] * x[2]) + x[1] * (d[3] * x[0] + d[1] * x[1] + d[5] * x[2]) +
            x[2] * (d[4] * x[0] + d[5] * x[1] + d[2] * x[2]);
   }
+}
+
+/// How fast the strain x.e x that a pair shares closes its gap, where it is what closes it (`along`, v.x): the harmonic
+/// mean of both sides, 0 where one side opens, and fading where it differs by more than `trust` from what happens.
+template <class V>
+V smooth_closing(V ours, V theirs, V along) {
+  using T = kernel_detail::Scalar<V>;
+  constexpr T trust = T(0.3), guard = T(1e-30);
+  ours = simd::min(ours, V{});
+  theirs = simd::min(theirs, V{});
+  const V mean = T(2) * ours * theirs / (ours + theirs - guard), rest = mean - along;
+  const V off = simd::max(rest, V(-rest)) / (trust * simd::max(along, V(-along)) + guard);
+  return mean * simd::max(simd::min(V(T(2) - off), V{} + T(1)), V{});
 }
 
 /// Shares s_ij and s_ji of the weights of a pair of neighbours (PairPass::rates), by their expansions r and
@@ -165,12 +179,12 @@ struct Touch {
     const V other = V{} + p.record[R::sound_speed];
     return simd::min(V(T(4) * simd::min(sound_speed, other) / (sound_speed + other)), V{} + T(1));
   }
-  /// v.x for neighbours; between pieces only what closes the gap, so that sliding does not brake.
+  /// What closes the gap between pieces, of v.x (`along`): sliding does not brake.
   template <class Partner>
-  V closing(const Partner& p, const V (&dv)[Dim], V along, V own) const {
+  V closing(const Partner& p, const V (&dv)[Dim], V along) const {
     V n[Dim];
     const V n2 = mean_normal(p, n), gap = dot(dv, n) * dot(p.dx, n) / (n2 + T(1e-20));
-    return own > T(0) ? along : V(n2 > T(0.01) ? gap : along);
+    return n2 > T(0.01) ? gap : along;
   }
   /// Adds friction to the force per volume; returns half of what it heats. The velocity of an
   /// image behind a wall is mirrored; the wall itself rests.

@@ -24,9 +24,6 @@ double curl(const Mat<Dim>& L) {
 constexpr double least_density_share = 0.6, most_density_share = 1.7;
 constexpr double least_filling = 0.85, widest_support = 1.25;
 
-/// Share of the viscosity that is left where nothing is compressed.
-constexpr double least_viscosity = 0.1;
-
 /// Factor of the bounds: particles of a coarse body count the finer neighbours of another as their own.
 double density_share(const Scene& scene, int dim) {
   double finest = std::numeric_limits<double>::infinity(), coarsest = 0;
@@ -126,26 +123,22 @@ void strain_rates(Simulation<Dim>& sim) {
 template <int Dim>
 void viscosity_switches(Simulation<Dim>& sim) {
   Particles<Dim>& p = sim.particles;
-  const bool shear = p.has(Field::shear_switch), shocks = p.has(Field::shock_switch);
-  // A shock of compression rho2/rho1 brings the switch to 1 - (rho1/rho2)^rise: to 0.9 for 2 %, so that elastic
-  // precursors do not ring, where the published 1 would leave shocks in rock at 0.1. It fades in five sound crossings
-  // of h.
-  constexpr double rise = 100, decay = 0.2;
+  const bool shear = p.has(Field::viscosity_factor), shocks = p.has(Field::shock_switch);
+  // A shock of compression rho2/rho1 brings the switch to 1 - (rho1/rho2)^rise: to 0.9 for 12 %, where the published 1
+  // would leave shocks in rock at 0.1. It fades in five sound crossings of h.
+  constexpr double rise = 20, decay = 0.2;
   parallel_for(0, p.size(), [&](std::size_t i) {
     const Mat<Dim> L = p.tensor(Field::velocity_gradient, i);
     const double divergence = L.trace(),
                  crossing = p.column(Field::sound_speed)[i] / p.column(Field::smoothing_length)[i];
-    double factor = 1;
     if (shear)  // Balsara (1995): |div v| / (|div v| + |curl v| + 1e-4 c/h)
-      factor = p.column(Field::shear_switch)[i] =
+      p.column(Field::viscosity_factor)[i] =
           std::abs(divergence) / (std::abs(divergence) + curl<Dim>(L) + 1e-4 * crossing);
     if (shocks) {  // Morris & Monaghan (1997), with the source of Rosswog et al. (2000)
       double& a = p.column(Field::shock_switch)[i];
       const double dt = sim.clock.dt, source = rise * std::max(0.0, -divergence);
-      a = (a + dt * (decay * crossing * least_viscosity + source)) / (1 + dt * (decay * crossing + source));
-      factor *= a;
+      a = (a + dt * source) / (1 + dt * (decay * crossing + source));
     }
-    p.column(Field::viscosity_factor)[i] = factor;
   });
 }
 

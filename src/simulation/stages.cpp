@@ -36,11 +36,11 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
   const bool driven = std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) { return b.driven; });
   const bool continuity = scene.numerics.density == DensityMethod::continuity;
   const bool balsara = holds(scene.numerics.balsara, materials);
-  const bool decays = holds(scene.numerics.shock_switch, materials);
+  const bool switched = holds(scene.numerics.shock_switch, materials);
   const bool bonded = scene.numerics.bonds == Switch::on || (scene.numerics.bonds == Switch::automatic &&
                                                              any([](const Material& m) { return m.stretches(); }));
   const bool tensor = scene.numerics.scheme == SchemeKind::asph;
-  const bool gradient = solid || continuity || balsara || decays || tensor || corrects_gradients(scene, materials);
+  const bool gradient = solid || continuity || balsara || switched || tensor || corrects_gradients(scene, materials);
 
   std::vector<Stage<Dim>> stages;
   auto add = [&](std::string name, std::vector<Field> reads, std::vector<Field> writes, void (*run)(Simulation<Dim>&)) {
@@ -83,9 +83,10 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
                  {damage_tensor, strain_history}),
         ejecta::damage<Dim>);
   add("pair rates",
-      extended(extended(extended({position, velocity, smoothing_length, mass, density, pressure, sound_speed}, solid,
-                                 {deviatoric_stress}),
-                        balsara || decays, {viscosity_factor}),
+      extended(extended(extended(extended({position, velocity, smoothing_length, mass, density, pressure, sound_speed},
+                                          solid, {deviatoric_stress}),
+                                 balsara, {viscosity_factor}),
+                        switched, {shock_switch, velocity_gradient}),
                bonded, {start_position, bond}),
       extended(extended(extended({acceleration, heating, neighbour_sum, approach_speed}, gradient, {velocity_gradient}),
                         coupled, {coupled_gradient}),
@@ -98,9 +99,9 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
                           solid, {deviatoric_stress}),
                  variable_shear, {shear_modulus}),
         extended(extended({}, continuity, {compression_rate, density}), solid, {stress_rate}), strain_rates<Dim>);
-  if (balsara || decays)
+  if (balsara || switched)
     add("viscosity switches", {velocity_gradient, sound_speed, smoothing_length},
-        extended(extended({viscosity_factor}, balsara, {Field::shear_switch}), decays, {Field::shock_switch}),
+        extended(extended({}, balsara, {viscosity_factor}), switched, {Field::shock_switch}),
         viscosity_switches<Dim>);
   if (continuity && scene.numerics.smoothing_growth > 1)
     add("smoothing lengths", {neighbour_sum, smoothing_length, mass}, {smoothing_length}, smoothing_lengths<Dim>);

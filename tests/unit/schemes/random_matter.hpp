@@ -34,7 +34,8 @@ Particles<Dim> random_matter(std::size_t n, unsigned seed, bool stress, double h
                              std::vector<Field> more = {}) {
   std::vector<Field> fields{Field::smoothing_length, Field::density,          Field::pressure,
                             Field::sound_speed,      Field::heating,          Field::neighbour_sum,
-                            Field::approach_speed,   Field::viscosity_factor, Field::velocity_gradient};
+                            Field::approach_speed,   Field::viscosity_factor, Field::velocity_gradient,
+                            Field::shock_switch};
   if (stress) fields.push_back(Field::deviatoric_stress);
   fields.insert(fields.end(), more.begin(), more.end());
   Particles<Dim> p = random_cloud<Dim>(n, seed, spacing, h_spread * spacing, fields);
@@ -50,6 +51,10 @@ Particles<Dim> random_matter(std::size_t n, unsigned seed, bool stress, double h
     p.column(Field::pressure)[i] = uniform(-1e8, 1e9);
     p.column(Field::sound_speed)[i] = uniform(1000, 3000);
     p.column(Field::viscosity_factor)[i] = uniform(0, 1);
+    p.column(Field::shock_switch)[i] = uniform(0, 1);
+    // Compression in most, of the size of the differences in velocity.
+    for (int k = 0; k < Dim * Dim; ++k)
+      p.column(Field::velocity_gradient, k)[i] = uniform(-1, 1) * 20 / spacing - (k % (Dim + 1) == 0 ? 30 / spacing : 0);
     for (int k = 0; stress && k < deviator_size<Dim>; ++k)
       p.column(Field::deviatoric_stress, k)[i] = uniform(-5e8, 5e8);
     p.label(Label::material)[i] = p.label(Label::body)[i] = i < n / 3 ? 0 : 1;

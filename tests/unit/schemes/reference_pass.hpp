@@ -103,10 +103,11 @@ class Reference {
 
       double closing = q.v.dot(q.x),
              f = 0.5 * (column(Field::viscosity_factor, i) + column(Field::viscosity_factor, j));
+      closing -= smooth_closing(i, j, q.x, closing);
       const double c_j = column(Field::sound_speed, j), rho_j = column(Field::density, j);
       Vec<Dim> n = own.normal - other.normal;
       if (!q.own) {
-        if (n.squaredNorm() > 0.01) closing = q.v.dot(n) * q.x.dot(n) / n.squaredNorm();
+        closing = n.squaredNorm() > 0.01 ? q.v.dot(n) * q.x.dot(n) / n.squaredNorm() : q.v.dot(q.x);
         f = touching_pair(i, j) * std::min(1.0, 4 * std::min(c, c_j) / (c + c_j));
       }
       const double mean_h = 0.5 * (h + column(Field::smoothing_length, j));
@@ -177,7 +178,7 @@ class Reference {
  private:
   /// What partners see of a particle.
   struct View {
-    Mat<Dim> G, H, own, press = Mat<Dim>::Zero(), moment = Mat<Dim>::Zero(), touched = Mat<Dim>::Zero();
+    Mat<Dim> G, H, L, own, press = Mat<Dim>::Zero(), moment = Mat<Dim>::Zero(), touched = Mat<Dim>::Zero();
     Vec<Dim> normal = Vec<Dim>::Zero();
     double V, r, Z, touching = 0;  ///< r: rho0/rho
     int piece = 0;
@@ -230,6 +231,9 @@ class Reference {
       if (settings_.tensor)
         view.H = Eigen::SelfAdjointEigenSolver<Mat<Dim>>(p_.symmetric(Field::smoothing_metric, i)).operatorSqrt();
       view.G = view.H * view.H;
+      const Mat<Dim> L =
+          strained() ? p_.tensor(Field::velocity_gradient, source(i)) : Mat<Dim>(Mat<Dim>::Zero());
+      view.L = i < copies_.size() ? Mat<Dim>(copies_[i].sign.asDiagonal() * L * copies_[i].sign.asDiagonal()) : L;
       view.V = column(Field::mass, i) / column(Field::density, i);
       const auto material = static_cast<std::size_t>(p_.label(Label::material)[i]);
       view.r = settings_.rules.reference_density.at(material) / column(Field::density, i);
@@ -290,6 +294,16 @@ class Reference {
     const double half_size_away = half_space(0.5 * size / column(Field::smoothing_length, i));
     views_[i].touching = std::clamp((occupied / half_size_away - 1) / 0.02, 0.0, 1.0);
     views_[i].normal = outward.normalized();
+  }
+  bool strained() const { return p_.has(Field::velocity_gradient) && p_.has(Field::shock_switch); }
+  /// What of a closing of the pair, v.x, the viscosity leaves alone: the smooth part, where there is no shock.
+  double smooth_closing(std::size_t i, std::size_t j, const Vec<Dim>& x, double closing) const {
+    if (!strained() || closing >= 0) return 0;
+    const double a = x.dot(views_[i].L * x), b = x.dot(views_[j].L * x);
+    if (a >= 0 || b >= 0) return 0;
+    const double mean = 2 / (1 / a + 1 / b), off = std::abs(mean - closing) / (0.3 * std::abs(closing));
+    const double calm = 1 - 0.5 * (column(Field::shock_switch, i) + column(Field::shock_switch, j));
+    return calm * mean * std::clamp(2 - off, 0.0, 1.0);
   }
   /// w_ij of neighbours, V0_j r_i s_ij with V0 = V/r: from s = 1 to the ratio of volumes as r_i/r_j + r_j/r_i goes from
   /// `alike` to four times that.

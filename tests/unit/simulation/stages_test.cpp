@@ -41,9 +41,9 @@ TEST(Stages, PorousRockHasAllItsOwn) {
                                       "strain rates", "viscosity switches", "smoothing lengths"}));
   for (const Field f :
        {deviatoric_stress, stress_rate, plastic_strain, distension, stress_factor, Field::damage, crack, local_strain,
-        flaw_strain, velocity_gradient, compression_rate, viscosity_factor, Field::shock_switch})
+        flaw_strain, velocity_gradient, compression_rate, Field::shock_switch})
     EXPECT_TRUE(sim->particles.has(f)) << info(f).name;
-  for (const Field f : {bond, start_position, stretch, Field::shear_switch})
+  for (const Field f : {bond, start_position, stretch, viscosity_factor})
     EXPECT_FALSE(sim->particles.has(f)) << info(f).name;
   EXPECT_FALSE(sim->particles.has(flaw_count));
   EXPECT_TRUE(start<3>(porous_impact, {"materials.pumice.damage.growth=benz_asphaug"})->particles.has(flaw_count));

