@@ -18,16 +18,15 @@ class ElasticPrecursor(Case):
     full = (100, 200, 400, 800)
     boost = "y"
     bounds = (
-        Bound("stress", "L1", {100: 0.05, 200: 0.034, 400: 0.022}, 0.5, why="both shocks are weak, so that viscosity "
+        Bound("stress", "L1", {100: 0.042, 200: 0.027, 400: 0.017}, 0.5, why="both shocks are weak, so that viscosity "
               "still widens them as it does linear waves, with the root of time: half an order at first"),
-        Bound("velocity", "L1", {100: 0.05, 200: 0.034, 400: 0.022}, 0.5, why="the same"),
-        Bound("elastic limit", "relative", {100: 0.019, 200: 0.011, 400: 0.0052}, 0.5),
-        Bound("plateau stress", "relative", {100: 0.002, 200: 0.0015, 400: 0.001}, why="at the noise of the plateau"),
-        # With a viscosity that does not decay (numerics.shock_switch) the limit is a third closer, the plateau and the speed
-        # ten times, and the L1 errors are 15 to 40 % larger.
-        Bound("precursor speed", "relative", {100: 0.0042, 200: 0.0034, 400: 0.0024}, why="the foot of a precursor of a few "
-              "percent rings where the viscosity has not risen yet"),
-        Bound("plastic shock speed", "relative", {100: 0.01, 200: 0.0025, 400: 0.0012}, 1.0),
+        Bound("velocity", "L1", {100: 0.042, 200: 0.027, 400: 0.017}, 0.5, why="the same"),
+        # With full viscosity everywhere (numerics.shock_switch=false) the next four are 0.96, 0.06, 0.03 and 0.8 % at
+        # 100 and of order one, and the two above a quarter larger: these fronts are weak, the sharper one rings.
+        Bound("elastic limit", "relative", {100: 0.032, 200: 0.024, 400: 0.0175}, 0.4),
+        Bound("plateau stress", "relative", {100: 0.0047, 200: 0.004, 400: 0.0035}, why="what rings"),
+        Bound("precursor speed", "relative", {100: 0.0155, 200: 0.011, 400: 0.0081}, 0.4),
+        Bound("plastic shock speed", "relative", {100: 0.0117, 200: 0.0076, 400: 0.0056}, 0.45),
     )
 
     def settings(self, resolution):

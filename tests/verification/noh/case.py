@@ -131,7 +131,7 @@ class NohPlanarTensors(WithTensors, NohPlanar):
         Bound("pressure", "L1", {50: 0.032, 100: 0.0158}, 0.7),
         Bound("energy", "L1", {50: 0.015, 100: 0.0073}, 0.72),
         *(bound for bound in NohPlanar.bounds if bound.norm != "L1" and bound.quantity != "plateau density"),
-        Bound("plateau density", "relative", 0.0036, why="far below the other errors"),
+        Bound("plateau density", "relative", {25: 0.028, 50: 0.0036, 100: 0.0036}, why="at 25 the plateau is short"),
     )
 
 
@@ -143,7 +143,7 @@ class NohCylindricalTensors(WithTensors, NohCylindrical):
     bounds = (
         Bound("density", "L1", {25: 2.45, 50: 1.34}, 0.75, limits),
         Bound("velocity", "L1", {25: 0.195, 50: 0.116}, 0.6, limits),
-        Bound("pressure", "L1", {25: 0.75, 50: 0.445}, 0.65, limits),
+        Bound("pressure", "L1", {25: 0.75, 50: 0.445}, 0.58, limits),
         Bound("energy", "L1", {25: 0.09, 50: 0.052}, 0.65, limits),
         Bound("plateau density", "relative", {25: 0.24, 50: 0.068}, 1.3),
         NO_NEGATIVE_ENERGY,
