@@ -13,8 +13,8 @@ PRINTED = {200: (1005.7, 2624.8, 0.4833e9), 458: (1982.75, 2747.05, 1.9594e9), 8
 
 # Limits at 100, 200, 500 and 1000 particles: measured and 15 %. Without corrected gradients the plateaus are five to ten
 # times closer (0.06 % in pressure): continuity with them is not the derivative of a sum, and a front leaves some error of
-# the density behind at any resolution. With a viscosity that does not decay the L1 errors of the pressure are a fifth to a
-# third less. For comparison, SPHERAL with 500 points in one dimension, its own elastic branch and 458 m/s: L1 of density
+# the density behind at any resolution. With full viscosity everywhere the L1 error of the pressure at 800 m/s is the same at
+# 100 and a quarter less at 200. For comparison, SPHERAL with 500 points in one dimension, its own elastic branch and 458 m/s: L1 of density
 # 67.8 kg/m^3, velocity 49.2 m/s, pressure 222 MPa, alpha 0.059.
 LIMITS = {
     200: {"density L1": (26, 17, 8.6, 4.8), "velocity L1": (10.4, 6.8, 3.5, 2),
