@@ -5,11 +5,10 @@ from scipy.spatial import cKDTree
 from harness import Bound, Case
 
 SPACING = 1e-3  # m
-# 1 - the distance of the closest pair in spacings. 0.2 is asked of 2 particles a smoothing length; with 1.2 only
-# the quintic spline, with its wider support, keeps to it.
-ALLOWED = {("cubic_spline", 2.0): 0.02, ("quintic_spline", 2.0): 0.02, ("wendland_c2", 2.0): 0.1,
-           ("wendland_c4", 2.0): 0.08, ("cubic_spline", 1.2): 0.47, ("quintic_spline", 1.2): 0.15,
-           ("wendland_c2", 1.2): 0.4, ("wendland_c4", 1.2): 0.3}
+# 1 - the distance of the closest pair in spacings. 0.2 is asked of 2 particles a smoothing length; the displacements of a
+# thousandth at the start grow a few times.
+ALLOWED = {(kernel, nodes): 0.012 for nodes in (2.0, 1.2)
+           for kernel in ("cubic_spline", "quintic_spline", "wendland_c2", "wendland_c4")}
 
 
 class Tension(Case):
