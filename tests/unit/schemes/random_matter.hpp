@@ -54,7 +54,8 @@ Particles<Dim> random_matter(std::size_t n, unsigned seed, bool stress, double h
     p.column(Field::shock_switch)[i] = uniform(0, 1);
     // Compression in most, of the size of the differences in velocity.
     for (int k = 0; k < Dim * Dim; ++k)
-      p.column(Field::velocity_gradient, k)[i] = uniform(-1, 1) * 20 / spacing - (k % (Dim + 1) == 0 ? 30 / spacing : 0);
+      p.column(Field::velocity_gradient, k)[i] =
+          uniform(-1, 1) * 20 / spacing - (k % (Dim + 1) == 0 ? 30 / spacing : 0);
     for (int k = 0; stress && k < deviator_size<Dim>; ++k)
       p.column(Field::deviatoric_stress, k)[i] = uniform(-5e8, 5e8);
     p.label(Label::material)[i] = p.label(Label::body)[i] = i < n / 3 ? 0 : 1;

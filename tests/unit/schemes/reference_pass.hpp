@@ -231,8 +231,7 @@ class Reference {
       if (settings_.tensor)
         view.H = Eigen::SelfAdjointEigenSolver<Mat<Dim>>(p_.symmetric(Field::smoothing_metric, i)).operatorSqrt();
       view.G = view.H * view.H;
-      const Mat<Dim> L =
-          strained() ? p_.tensor(Field::velocity_gradient, source(i)) : Mat<Dim>(Mat<Dim>::Zero());
+      const Mat<Dim> L = strained() ? p_.tensor(Field::velocity_gradient, source(i)) : Mat<Dim>(Mat<Dim>::Zero());
       view.L = i < copies_.size() ? Mat<Dim>(copies_[i].sign.asDiagonal() * L * copies_[i].sign.asDiagonal()) : L;
       view.V = column(Field::mass, i) / column(Field::density, i);
       const auto material = static_cast<std::size_t>(p_.label(Label::material)[i]);

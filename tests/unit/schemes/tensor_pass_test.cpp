@@ -49,8 +49,8 @@ void expect_formulas(std::size_t n, const PairPassSettings& settings) {
                                   << static_cast<int>(settings.precision) << ", coupled " << settings.coupled);
   auto p = tensor_matter<Dim>(n, 41, settings.stress, settings.coupled);
   sort_in_space(p, cluster_size(settings.precision));
-  run_rates(p, settings);
   const Reference<Dim> reference(p, settings);
+  run_rates(p, settings);
   const double tolerance = settings.precision == Precision::mixed ? 2e-5 : 2e-13;
   for (std::size_t i = 0; i < n; ++i) {
     const Sums<Dim> sums = reference.rates(i);

@@ -18,8 +18,8 @@ void expect_formulas(PairPassSettings settings, double h_share) {
   if (settings.tensor) random_ellipsoids(p, 3, 52);
   split_in_two(p, settings);
   sort_in_space(p, cluster_size(settings.precision));
-  run_rates(p, settings);
   const Reference<Dim> reference(p, settings);
+  run_rates(p, settings);
   // Contact sets in over a fiftieth of what fills the support, so that round-off there counts fifty times.
   const double tolerance = settings.precision == Precision::mixed ? 5e-5 : 5e-13;
   std::size_t pressed = 0;

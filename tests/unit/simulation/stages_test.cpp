@@ -39,9 +39,8 @@ TEST(Stages, PorousRockHasAllItsOwn) {
   EXPECT_EQ(names(sim->stages),
             (std::vector<std::string>{"neighbours", "equation of state", "strength", "damage", "pair rates",
                                       "strain rates", "viscosity switches", "smoothing lengths"}));
-  for (const Field f :
-       {deviatoric_stress, stress_rate, plastic_strain, distension, stress_factor, Field::damage, crack, local_strain,
-        flaw_strain, velocity_gradient, compression_rate, Field::shock_switch})
+  for (const Field f : {deviatoric_stress, stress_rate, plastic_strain, distension, stress_factor, Field::damage, crack,
+                        local_strain, flaw_strain, velocity_gradient, compression_rate, Field::shock_switch})
     EXPECT_TRUE(sim->particles.has(f)) << info(f).name;
   for (const Field f : {bond, start_position, stretch, viscosity_factor})
     EXPECT_FALSE(sim->particles.has(f)) << info(f).name;
@@ -78,15 +77,15 @@ TEST(Stages, EveryColumnIsNamedByAStage) {
 }
 
 TEST(Stages, MemoryPerParticleStaysSmall) {
-  // At sizes where surfaces count little. Of the rock's, 460 are columns, 234 the records of the pair pass, 117 those of
-  // contact between pieces, 176 the sums over the surroundings, and the rest mostly candidate lists.
+  // At sizes where surfaces count little. Of the rock's, 450 are columns, 297 the records of the pair pass, 117 those
+  // of contact between pieces, 176 the sums over the surroundings, and the rest mostly candidate lists.
   const auto rock = start<3>(porous_impact, {"resolution.spacing=2.2 mm"});
   const auto gas = start<2>(gas_tube, {"resolution.spacing=6.25 mm"});
   advance(*rock, 3);
   advance(*gas, 3);
   RecordProperty("rock_bytes", std::to_string(bytes_per_particle(*rock)));
   RecordProperty("gas_bytes", std::to_string(bytes_per_particle(*gas)));
-  EXPECT_LT(bytes_per_particle(*rock), 1250) << rock->particles.size() << " particles";
+  EXPECT_LT(bytes_per_particle(*rock), 1300) << rock->particles.size() << " particles";
   EXPECT_LT(bytes_per_particle(*gas), 500) << gas->particles.size() << " particles";
 }
 
