@@ -245,10 +245,11 @@ void PairPassOf<T, Dim, Kind, K>::cluster_rates(Particles<Dim>& particles, const
         const V along = pair_detail::dot(dv, p.dx), central = p.central();
         const Shares shares(alike, expansion, compression, j[R::expansion], j[R::compression]);
         V closing = along;
-        if constexpr (Kind.gradient)
-          closing -= (smooth + j[R::smooth]) * pair_detail::smooth_closing(pair_detail::along<Dim>(strain, p.dx),
-                                                                           pair_detail::along<Dim>(j + R::strain, p.dx),
-                                                                           along);
+        if constexpr (Kind.gradient) {
+          const pair_detail::Squares<V, Dim> squares(p.dx);
+          const V shared = pair_detail::smooth_closing(squares.along(strain), squares.along(j + R::strain), along);
+          closing -= simd::rounded(V((smooth + j[R::smooth]) * shared));
+        }
         V limiter = viscosity_factor + j[R::viscosity_factor];
         [[maybe_unused]] V own, uneven[Dim], own_share;  // uneven: what the stress of i gives more than that of j
         if constexpr (Mixed)

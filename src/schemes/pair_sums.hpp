@@ -77,6 +77,26 @@ struct WeightShares {
   bool even() const { return !simd::any_less(mass, V{} + 1); }
 };
 
+/// The products x_a x_b, twice where a and b differ, in the order of symmetric tensors.
+template <class V, int Dim>
+struct Squares {
+  V products[symmetric_size<Dim>];
+
+  explicit Squares(const V (&x)[Dim]) {
+    for (int a = 0, k = Dim; a < Dim; ++a) {
+      products[a] = x[a] * x[a];
+      for (int b = a + 1; b < Dim; ++b, ++k) products[k] = 2 * (x[a] * x[b]);
+    }
+  }
+  /// x . e x. Products are rounded before the sum, so that it is the same number seen from either side of a pair.
+  template <class Tensor>
+  V along(const Tensor& e) const {
+    V sum = simd::rounded(V(e[0] * products[0]));
+    for (int k = 1; k < symmetric_size<Dim>; ++k) sum += simd::rounded(V(e[k] * products[k]));
+    return sum;
+  }
+};
+
 /// Sum over partners of a b^T.
 template <class V, int Dim>
 struct TensorSum {

@@ -248,6 +248,35 @@ TEST(PairPass, TheCorrectedGradientOfALinearFlowIsExact) {
     }
 }
 
+/// Acceleration by the viscosity alone, summed over a compressed cloud; every particle knows its strain from before.
+double viscous_force(double shock_switch, double noise) {
+  auto p = random_matter<3>(600, 33, true);
+  Mat<3> A;
+  A << -1, 0.3, 0.1, -0.2, -1.2, 0.2, 0.1, 0.1, -0.9;
+  A *= 1e4;
+  Uniform uniform(34);
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const Vec<3> jump = noise * A.norm() * spacing * Vec<3>(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
+    p.set_vector(Field::velocity, i, A * p.vector(Field::position, i) + jump);
+    for (int k = 0; k < 9; ++k) p.column(Field::velocity_gradient, k)[i] = A(k / 3, k % 3);
+    p.column(Field::pressure)[i] = 0;
+    for (int k = 0; k < deviator_size<3>; ++k) p.column(Field::deviatoric_stress, k)[i] = 0;
+    p.column(Field::shock_switch)[i] = shock_switch;
+  }
+  run_rates(p, settings_of(Kernel::wendland_c2, Precision::double_precision, true, true));
+  double sum = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) sum += p.vector(Field::acceleration, i).norm();
+  return sum;
+}
+
+TEST(Viscosity, LeavesSmoothFlowAloneButNotShocksNorDisorder) {
+  const double shock = viscous_force(1, 0);
+  EXPECT_GT(shock, 0);
+  EXPECT_LT(viscous_force(0, 0), 1e-12 * shock) << "a linear flow is smooth";
+  EXPECT_NEAR(viscous_force(0.5, 0), 0.5 * shock, 0.1 * shock) << "beyond the linear term of the viscosity";
+  EXPECT_GT(viscous_force(0, 3), 0.3 * viscous_force(1, 3)) << "what a disordered lattice does is damped";
+}
+
 /// A cloud with ellipsoids of aspect up to `aspect` turned at random, moving as A x; the largest error of the corrected
 /// gradient, relative to A, where the neighbours span space.
 template <int Dim>
