@@ -90,8 +90,8 @@ TEST(PairPass, AGasWithoutGradientsHasTheSameRates) {
     auto p = random_matter<3>(200, 23, false);
     auto with = settings_of(Kernel::wendland_c2, precision, false, false), without = with;
     without.velocity_gradient = false;
-    std::ranges::fill(p.column(Field::shock_switch),
-                      1.0);  // viscosity by the whole approach, with gradients or without
+    // Viscosity by the whole approach, with gradients or without.
+    std::ranges::fill(p.column(Field::shock_switch), 1.0);
     auto q = p;
     const Reference<3> reference(p, with);
     const auto column = q.column(Field::velocity_gradient);
@@ -101,7 +101,8 @@ TEST(PairPass, AGasWithoutGradientsHasTheSameRates) {
     for (std::size_t i = 0; i < p.size(); ++i) {
       const Sums<3> sums = reference.rates(i);
       const double tolerance = precision == Precision::mixed ? 3e-6 : 3e-14;
-      EXPECT_EQ(p.vector(Field::acceleration, i), q.vector(Field::acceleration, i));
+      EXPECT_LE((p.vector(Field::acceleration, i) - q.vector(Field::acceleration, i)).norm(),
+                tolerance * sums.acceleration_scale);
       EXPECT_NEAR(p.column(Field::heating)[i], q.column(Field::heating)[i], tolerance * sums.heating_scale);
       EXPECT_EQ(q.column(Field::velocity_gradient)[i], untouched[i]) << "nobody writes it";
     }
