@@ -128,8 +128,10 @@ class Fragments(RunTest):
             first, second = (dict(zip(end.label("id"), end.column(name))) for end in ends)
             self.assertEqual(first, second, name)
         peaks = summary(whole)["bodies"]["ball"]
-        # 1 km/s of iron onto basalt: some 10 GPa by the acoustic impedances of both.
-        self.assertTrue(2e9 < peaks["pressure_peak_median"] < peaks["pressure_peak_max"] < 4e10, peaks)
+        # 1 km/s of iron onto basalt: 9 GPa by the acoustic impedances of both. The sides let go before the wave is through
+        # the ball, so that half of it sees less, but a tenth at least.
+        self.assertTrue(0.5 < peaks["pressure_peak_max"] / 9e9 < 2, peaks)
+        self.assertTrue(0.1 < peaks["pressure_peak_median"] / 9e9 < 1, peaks)
         self.assertEqual(summary(whole)["bodies"], summary(half)["bodies"])
 
 
