@@ -59,8 +59,8 @@ class PairPass {
   /// times 1 - shock_switch: full viscosity in shocks, none in smooth flow, and always what damps a disordered lattice.
   ///
   /// Particles of different pieces, and a solid and a wall, are no neighbours. From where they come within a particle's
-  /// size (PairRecord::touching, w_ij the larger of both) they act on each other by what presses across the contact,
-  ///   dv_i/dt += 1/rho_i sum_j V_j [w_ij (a_ij T'_i + a_ji T'_j) g_ij - q_ij x_ji (x_ji.g_ij)/r^2],
+  /// size (PairRecord::touching, t_ij the larger of both) they act on each other by what presses across the contact,
+  ///   dv_i/dt += 1/rho_i sum_j V_j [t_ij (a_ij T'_i + a_ji T'_j) g_ij - q_ij x_ji (x_ji.g_ij)/r^2],
   /// T' and the strain that goes with it as in gradient_correction.hpp, a_ij = 2 Z_j/(Z_i + Z_j) with the impedances
   /// Z = rho c: what touches pushes, never pulls, and slides. The viscosity sees what closes the gap alone. Friction
   /// adds min(mu p, Z |v_t|) against the sliding velocity v_t, p the force across the contact.

@@ -289,8 +289,6 @@ void PairPassOf<T, Dim, Kind, K>::cluster_rates(Particles<Dim>& particles, const
           if constexpr (R::split) pair_detail::contract<Kind.stress, Dim, -1>(ours, theirs, kernel_gradient, uneven);
         } else {
           pair_detail::contract<Kind.stress, Dim>(stress, j + R::stress, kernel_gradient, force);
-          if constexpr (R::split)
-            pair_detail::contract<Kind.stress, Dim, -1>(stress, j + R::stress, kernel_gradient, uneven);
         }
         V drag[Dim];
         for (int a = 0; a < Dim; ++a) {
@@ -301,7 +299,7 @@ void PairPassOf<T, Dim, Kind, K>::cluster_rates(Particles<Dim>& particles, const
         }
         if constexpr (R::split) {
           // Half of the work of the very force that acts, and what the two stresses differ by: the first is the same
-          // number for j, the second its negative, so that no rounding is left between work and heat.
+          // number for j, the second its negative, so that work and heat differ by the rounding of dv alone.
           for (int a = 0; a < Dim; ++a) heat.add_product(volume, force[a], dv[a]);
           heat.add(volume, pair_detail::dot(uneven, dv));
         } else {
