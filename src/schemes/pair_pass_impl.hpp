@@ -142,7 +142,7 @@ void PairPassOf<T, Dim, Kind, K>::feel(std::size_t cluster, const PairLists<Dim>
   V outward[Dim] = {}, occupied{};
   for_partners<true>(
       members, support, candidates, R::v, [](const auto&) {},
-      [&](const Partner& p) {
+      [&](const Partner& p) __attribute__((always_inline)) {
         if (!p.foreign) return;
         mixed_[cluster] = 1;  // by who is within reach alone: how far lists reach must not change how sums round
         V gradient[Dim], w, unused;
@@ -176,7 +176,7 @@ void PairPassOf<T, Dim, Kind, K>::look_around(Particles<Dim>& particles, const C
   V stretch2 = V{} + T(1);
   for_partners<Mixed>(
       members, support, candidates, R::v, [](const auto&) {},
-      [&](const Partner& p) {
+      [&](const Partner& p) __attribute__((always_inline)) {
         const T volume = p.record[R::volume];
         const Shares shares(alike, expansion, compression, p.record[R::expansion], p.record[R::compression]);
         V gradient[Dim], weighted[Dim];
@@ -236,7 +236,7 @@ void PairPassOf<T, Dim, Kind, K>::cluster_rates(Particles<Dim>& particles, const
   V divergence{}, moment{}, fastest{};
   for_partners<Mixed>(
       members, support, candidates, R::size, [&](const auto& pair) { moment += pair.moment; },
-      [&](const Partner& p) {
+      [&](const Partner& p) __attribute__((always_inline)) {  // its sums are to stay in registers
         const T* j = p.record;
         const T volume = j[R::volume];
         V dv[Dim], kernel_gradient[Dim], force[Dim];
@@ -259,7 +259,7 @@ void PairPassOf<T, Dim, Kind, K>::cluster_rates(Particles<Dim>& particles, const
             limiter = own > T(0) ? limiter : V(touch.weight(p, own) * touch.softness(p, sound_speed));
           }
         const V mu = support.approach(p.pair, p.r2, closing, j);
-        const V mean_density = T(2) * density * j[R::density] / (density + j[R::density]);
+        const V mean_density = T(2) * density * j[R::density] * simd::reciprocal(V(density + j[R::density]));
         const V viscosity = limiter * (expansion * j[R::expansion]) * mean_density *
                             (mu * (beta * mu - half_alpha * (sound_speed + j[R::sound_speed])));
         // In single precision always: both sides of a pair must round alike, whatever else is in their clusters.

@@ -51,13 +51,13 @@ V along(const Tensor& d, const V (&x)[Dim]) {
 /// How fast the strain x.e x that a pair shares closes its gap, where it is what closes it (`along`, v.x): the harmonic
 /// mean of both sides, 0 where one side opens, and fading where it differs by more than `trust` from what happens.
 template <class V>
-V smooth_closing(V ours, V theirs, V along) {
+[[gnu::always_inline]] inline V smooth_closing(V ours, V theirs, V along) {
   using T = kernel_detail::Scalar<V>;
   constexpr T trust = T(0.3), guard = T(1e-30);
   ours = simd::min(ours, V{});
   theirs = simd::min(theirs, V{});
-  const V mean = T(2) * ours * theirs / (ours + theirs - guard), rest = mean - along;
-  const V off = simd::max(rest, V(-rest)) / (trust * simd::max(along, V(-along)) + guard);
+  const V mean = T(2) * ours * theirs * simd::reciprocal(V(ours + theirs - guard)), rest = mean - along;
+  const V off = simd::max(rest, V(-rest)) * simd::reciprocal(V(trust * simd::max(along, V(-along)) + guard));
   return mean * simd::max(simd::min(V(T(2) - off), V{} + T(1)), V{});
 }
 
