@@ -22,7 +22,7 @@ struct PairPassSettings {
   bool tensor = false;               ///< smoothing tensors instead of lengths (velocity gradients always stored)
   bool coupled = false;              ///< tensor damage cuts the stress (always with stress)
   bool bonded = false;               ///< some particles keep the neighbours of the start (always with stress)
-  double alike = 4;  ///< weights are those of masses up to this ratio of densities, see rates()
+  double alike = 4;                  ///< weights are those of masses up to this ratio of densities, see rates()
   double viscosity_alpha = 1, viscosity_beta = 2;
   bool touches = false;    ///< there are several pieces, or a solid and a wall
   double friction = 0;     ///< coefficient of friction between pieces
@@ -54,9 +54,10 @@ class PairPass {
   /// densities stay at rest. s goes from one to the other while the densities differ by `alike` to four times that.
   /// q = f rho_ij (-alpha c mu + beta mu^2) is Monaghan's viscosity (1992), f the mean of both factors; rho_ij is
   /// the harmonic mean, at most twice the lighter one: light matter is not thrown off heavy matter. In passes without
-  /// stress q acts along g_ij. Of v.x in mu the part that both particles strain by anyway (by their velocity gradients of
-  /// the evaluation before, as in a limited linear reconstruction [van Leer 1979; Frontiere et al. 2017]) is left out,
-  /// times 1 - shock_switch: full viscosity in shocks, none in smooth flow, and always what damps a disordered lattice.
+  /// stress q acts along g_ij. Of v.x in mu the part that both particles strain by anyway (by their velocity gradients
+  /// of the evaluation before, as in a limited linear reconstruction [van Leer 1979; Frontiere et al. 2017]) is left
+  /// out, times 1 - shock_switch: full viscosity in shocks, none in smooth flow, and always what damps a disordered
+  /// lattice.
   ///
   /// Particles of different pieces, and a solid and a wall, are no neighbours. From where they come within a particle's
   /// size (PairRecord::touching, t_ij the larger of both) they act on each other by what presses across the contact,

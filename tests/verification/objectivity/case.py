@@ -16,7 +16,8 @@ class TurningDisc(Case):
     full = (16, 32, 64)
     boost, boost_speed = "x", 100.0
     bounds = (
-        Bound("stress after 1/4 turn", "L1", {16: 0.021, 32: 0.006, 64: 0.002}, 1.2),
+        # Of the present gradients: 1.8 % at 16, a little more than with raw ones, but an order of 1.9 in place of 1.4.
+        Bound("stress after 1/4 turn", "L1", {16: 0.021, 32: 0.006, 64: 0.002}, 1.6),
         Bound("stress after 1/2 turn", "L1", {16: 0.02, 32: 0.0075, 64: 0.0025}, 1.0),
         Bound("stress after 1 turn", "L1", {16: 0.023, 32: 0.01, 64: 0.0035}, 1.0),
         Bound("place after 1 turn", "L1", {16: 3e-4, 32: 3e-4, 64: 1e-4}, why="a missing spin term twists the disc by "

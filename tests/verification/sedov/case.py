@@ -95,6 +95,8 @@ class SedovCylindricalTensors(SedovCylindrical):
     bounds = (
         Bound("density", "L1", {25: 0.122, 50: 0.068}, 0.75),
         Bound("velocity", "L1", {25: 0.0415, 50: 0.022}, 0.8),
+        # Pressure 0.041 at 25, 0.035 when this was first measured; density is 0.118. What makes the difference, weights or
+        # viscosity, has not been traced.
         Bound("pressure", "L1", {25: 0.047, 50: 0.024}, 0.8),
         Bound("shock radius", "relative", {25: 0.013, 50: 0.002}, why="soon far below a spacing"),
         Bound("peak density", "relative", {25: 0.3, 50: 0.19}, 0.33),
