@@ -365,10 +365,11 @@ void PairPassOf<T, Dim, Kind, K>::cluster_rates(Particles<Dim>& particles, const
           }
       }
       pair_detail::store(particles, Field::velocity_gradient, i, Mat<Dim>(per_unit * L));
-      if constexpr (Kind.coupled)
-        pair_detail::store(particles, Field::coupled_gradient, i,
-                           Mat<Dim>(per_unit * gradient_correction<Dim>(around_.sums[i].moment - expanded * cut_moment.of_lane(k))
-                                                   .gradient(expanded * (raw - cut.of_lane(k)))));
+      if constexpr (Kind.coupled) {
+        const Mat<Dim> left = around_.sums[i].moment - expanded * cut_moment.of_lane(k);
+        const Mat<Dim> coupled = gradient_correction<Dim>(left).gradient(expanded * (raw - cut.of_lane(k)));
+        pair_detail::store(particles, Field::coupled_gradient, i, Mat<Dim>(per_unit * coupled));
+      }
     } else {
       work = static_cast<double>(stress[0][k]) * static_cast<double>(divergence[k]);
     }

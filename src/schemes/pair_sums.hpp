@@ -62,7 +62,8 @@ template <class V>
 }
 
 /// Shares s_ij and s_ji of the weights of a pair of neighbours (PairPass::rates), by their expansions r and
-/// compressions c = 1/r: 1 while their densities differ by less than `alike`, those of volumes where by four times that.
+/// compressions c = 1/r: 1 while their densities differ by less than `alike`, those of volumes where by four times
+/// that.
 template <class V>
 struct WeightShares {
   V own, other, mass;  ///< mass: 1 where weights are those of masses, 0 where those of volumes

@@ -67,9 +67,10 @@ class Tube(Case):
         Bound("pressure", "L1", {100: 0.0107, 200: 0.0057, 400: 0.0031}, 0.8),
         Bound("negative energy", "relative", 1e-12, why="there is none"),
     ), "summation": (
-        Bound("density", "L1", {100: 0.0027, 200: 0.0014, 400: 0.0008}, 0.8),
-        Bound("velocity", "L1", {100: 0.19, 200: 0.083, 400: 0.045}, 0.65),
-        Bound("pressure", "L1", {100: 0.009, 200: 0.0044, 400: 0.0024}, 0.75),
+        Bound("density", "L1", {100: 0.0025, 200: 0.0014, 400: 0.0008}, 0.8),
+        # 0.18 at 100, 0.15 with weights by mass whatever the densities, which do not bear the contact at rest.
+        Bound("velocity", "L1", {100: 0.19, 200: 0.083, 400: 0.045}, 0.7),
+        Bound("pressure", "L1", {100: 0.009, 200: 0.0044, 400: 0.0024}, 0.8),
         Bound("negative energy", "relative", 1e-12, why="there is none"),
     )}
 

@@ -19,9 +19,10 @@ class ImplicitVsRate(Case):
     boost, boost_speed = "y", 100.0
     mixed_margin = "the roots are found in double precision"
     bounds = (
-        Bound("alpha on the way", "rate form", {1200: 5.5e-4, 2400: 4e-4, 4800: 2e-4},
+        Bound("alpha on the way", "rate form", {1200: 5.5e-4, 2400: 3.1e-4, 4800: 1.6e-4},
               why="both turn a sharp bend where crushing begins"),
-        Bound("alpha after the shocks", "rate form", {1200: 1e-4, 2400: 1.6e-5, 4800: 7.8e-6}, 1.5),
+        # 2.3e-5 at 2400, and both orders less than with full viscosity: fronts are sharper, and pass in fewer steps.
+        Bound("alpha after the shocks", "rate form", {1200: 1e-4, 2400: 2.7e-5, 4800: 7.8e-6}, 1.4),
         Bound("alpha while crushed", "curve", 1e-9, why="a root; its tolerance of 1e-12 in alpha, seen through the "
                                                         "stiffness of the solid"),
         Bound("alpha while released", "change", 0.0, why="exact"),
