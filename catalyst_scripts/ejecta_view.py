@@ -255,6 +255,8 @@ class View:
         display.Position = [x, y]
         display.FontSize = max(6, round(points * self.size[1] / 720))
         display.Color = INK
+        display.BackgroundColor = [*PAPER, 0.8]  # ejecta that fly behind the words must not make them hard to read
+        display.Padding = max(2, round(4 * self.size[1] / 720))
         set_font(display)
         display.Bold = 1 if bold else 0
         return source

@@ -25,7 +25,7 @@ template <int Dim>
 double bytes_of_columns(const Scene& scene, const std::vector<Material>& materials) {
   double doubles = 2, labels = 4;  // scratch for sorting, and the share of damaged stress
   for (Field f : fields_of(choose_stages<Dim>(scene, materials)))
-    doubles += components(info(f).shape, Dim) * (info(f).role == Role::rate ? 2 : 1);
+    doubles += components(info(f).shape, Dim) * (f == Field::acceleration ? 2 : info(f).role == Role::rate ? 3 : 1);
   return doubles * sizeof(double) + labels * sizeof(std::int32_t);
 }
 

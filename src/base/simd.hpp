@@ -18,25 +18,48 @@ struct VectorOf {
 template <class T, int W>
 using Vector = typename VectorOf<T, W>::type;
 
-/// Lanes that fill one 64-byte vector: 8 doubles, 16 floats.
-template <class T>
-inline constexpr int lanes = 64 / sizeof(T);
+/// Bytes of the widest registers that the compiler may use: wider vectors would be taken apart and live in memory.
+#ifdef __AVX512F__
+inline constexpr int register_size = 64;
+#else
+inline constexpr int register_size = 32;
+#endif
 
-using Double8 = Vector<double, 8>;
-using Float16 = Vector<float, 16>;
+/// Lanes that fill one register.
+template <class T>
+inline constexpr int lanes = register_size / sizeof(T);
+
+using Doubles = Vector<double, lanes<double>>;
+using Floats = Vector<float, lanes<float>>;
+
+/// A number in all lanes. (The compiler drops "- 0", but not "+ 0", which makes 0 of -0.)
+template <class V, class T>
+[[gnu::always_inline]] inline V all(T value) {
+  return value - V{};
+}
 
 inline double max(double a, double b) { return a > b ? a : b; }
 inline double min(double a, double b) { return a < b ? a : b; }
-#ifdef __AVX512F__
-inline Double8 max(Double8 a, Double8 b) { return (Double8)_mm512_max_pd((__m512d)a, (__m512d)b); }
-inline Double8 min(Double8 a, Double8 b) { return (Double8)_mm512_min_pd((__m512d)a, (__m512d)b); }
-inline Float16 max(Float16 a, Float16 b) { return (Float16)_mm512_max_ps((__m512)a, (__m512)b); }
-inline Float16 min(Float16 a, Float16 b) { return (Float16)_mm512_min_ps((__m512)a, (__m512)b); }
+#if defined(__AVX512F__)
+inline Doubles max(Doubles a, Doubles b) { return (Doubles)_mm512_max_pd((__m512d)a, (__m512d)b); }
+inline Doubles min(Doubles a, Doubles b) { return (Doubles)_mm512_min_pd((__m512d)a, (__m512d)b); }
+inline Floats max(Floats a, Floats b) { return (Floats)_mm512_max_ps((__m512)a, (__m512)b); }
+inline Floats min(Floats a, Floats b) { return (Floats)_mm512_min_ps((__m512)a, (__m512)b); }
 /// Bit k: a < b in lane k.
-inline unsigned lanes_less(Double8 a, Double8 b) { return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LT_OQ); }
-/// True if a < b in any lane.
-inline bool any_less(Double8 a, Double8 b) { return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LT_OQ) != 0; }
-inline bool any_less(Float16 a, Float16 b) { return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LT_OQ) != 0; }
+inline unsigned lanes_less(Doubles a, Doubles b) { return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LT_OQ); }
+inline unsigned lanes_less(Floats a, Floats b) { return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LT_OQ); }
+#elif defined(__AVX2__)
+inline Doubles max(Doubles a, Doubles b) { return (Doubles)_mm256_max_pd((__m256d)a, (__m256d)b); }
+inline Doubles min(Doubles a, Doubles b) { return (Doubles)_mm256_min_pd((__m256d)a, (__m256d)b); }
+inline Floats max(Floats a, Floats b) { return (Floats)_mm256_max_ps((__m256)a, (__m256)b); }
+inline Floats min(Floats a, Floats b) { return (Floats)_mm256_min_ps((__m256)a, (__m256)b); }
+/// Bit k: a < b in lane k.
+inline unsigned lanes_less(Doubles a, Doubles b) {
+  return static_cast<unsigned>(_mm256_movemask_pd(_mm256_cmp_pd((__m256d)a, (__m256d)b, _CMP_LT_OQ)));
+}
+inline unsigned lanes_less(Floats a, Floats b) {
+  return static_cast<unsigned>(_mm256_movemask_ps(_mm256_cmp_ps((__m256)a, (__m256)b, _CMP_LT_OQ)));
+}
 #else
 template <class V>
 inline V max(V a, V b) {
@@ -46,20 +69,49 @@ template <class V>
 inline V min(V a, V b) {
   return a < b ? a : b;
 }
-/// True if a < b in any lane.
-template <class V>
-bool any_less(V a, V b) {
-  bool any = false;
-  for (std::size_t k = 0; k < sizeof(V) / sizeof(a[0]); ++k) any |= a[k] < b[k];
-  return any;
-}
 /// Bit k: a < b in lane k.
-inline unsigned lanes_less(Double8 a, Double8 b) {
+template <class V>
+unsigned lanes_less(V a, V b) {
   unsigned bits = 0;
-  for (unsigned k = 0; k < 8; ++k) bits |= static_cast<unsigned>(a[k] < b[k]) << k;
+  for (std::size_t k = 0; k < sizeof(V) / sizeof(a[0]); ++k) bits |= static_cast<unsigned>(a[k] < b[k]) << k;
   return bits;
 }
 #endif
+inline unsigned lanes_less(double a, double b) { return a < b; }
+
+/// |a|
+template <class V>
+inline V magnitude(V a) {
+  return max(a, V(-a));
+}
+
+/// a b + c, rounded once where the processor can: the same number whatever the compiler makes of the code around it.
+#if defined(__AVX512F__)
+inline Doubles fused(Doubles a, Doubles b, Doubles c) {
+  return (Doubles)_mm512_fmadd_pd((__m512d)a, (__m512d)b, (__m512d)c);
+}
+inline Floats fused(Floats a, Floats b, Floats c) {
+  return (Floats)_mm512_fmadd_ps((__m512)a, (__m512)b, (__m512)c);
+}
+#elif defined(__AVX2__) && defined(__FMA__)
+inline Doubles fused(Doubles a, Doubles b, Doubles c) {
+  return (Doubles)_mm256_fmadd_pd((__m256d)a, (__m256d)b, (__m256d)c);
+}
+inline Floats fused(Floats a, Floats b, Floats c) {
+  return (Floats)_mm256_fmadd_ps((__m256)a, (__m256)b, (__m256)c);
+}
+#else
+template <class V>
+inline V fused(V a, V b, V c) {
+  return a * b + c;
+}
+#endif
+/// True if a < b in any lane.
+template <class V>
+inline bool any_less(V a, V b) {
+  return lanes_less(a, b) != 0;
+}
+
 /// Lane k of a vector; a number is its only lane.
 inline double lane(double a, int) { return a; }
 inline void set_lane(double& a, int, double value) { a = value; }
@@ -71,72 +123,56 @@ template <class V>
 void set_lane(V& a, int k, double value) {
   a[k] = value;
 }
-inline bool any_less(double a, double b) { return a < b; }
-inline unsigned lanes_less(double a, double b) { return a < b; }
-
-inline double reciprocal_sqrt(double a) { return 1.0 / std::sqrt(a); }
-inline double reciprocal(double a) { return 1.0 / a; }
-
-/// 1/sqrt(a) to a few units in the last place: the 14-bit estimate and Newton steps y <- y (1.5 - a/2 y^2).
-inline Double8 reciprocal_sqrt(Double8 a) {
-#ifdef __AVX512F__
-  Double8 y = (Double8)_mm512_rsqrt14_pd((__m512d)a);
-  const Double8 half = 0.5 * a;
-  y = y * (1.5 - half * y * y);
-  return y * (1.5 - half * y * y);
-#else
-  Double8 y;
-  for (int k = 0; k < 8; ++k) y[k] = 1.0 / std::sqrt(a[k]);
-  return y;
-#endif
-}
-inline Float16 reciprocal_sqrt(Float16 a) {
-#ifdef __AVX512F__
-  const Float16 y = (Float16)_mm512_rsqrt14_ps((__m512)a);
-  return y * (1.5f - 0.5f * a * y * y);
-#else
-  Float16 y;
-  for (int k = 0; k < 16; ++k) y[k] = 1.0f / std::sqrt(a[k]);
-  return y;
-#endif
-}
-
-/// 1/a to a few units in the last place.
-inline Double8 reciprocal(Double8 a) {
-#ifdef __AVX512F__
-  Double8 y = (Double8)_mm512_rcp14_pd((__m512d)a);
-  y = y * (2.0 - a * y);
-  return y * (2.0 - a * y);
-#else
-  return 1.0 / a;
-#endif
-}
-inline Float16 reciprocal(Float16 a) {
-#ifdef __AVX512F__
-  const Float16 y = (Float16)_mm512_rcp14_ps((__m512)a);
-  return y * (2.0f - a * y);
-#else
-  return 1.0f / a;
-#endif
-}
 
 inline double square_root(double a) { return std::sqrt(a); }
-inline Double8 square_root(Double8 a) {
-#ifdef __AVX512F__
-  return (Double8)_mm512_sqrt_pd((__m512d)a);
+#if defined(__AVX512F__)
+Doubles square_root(Doubles a);
+Floats square_root(Floats a);
+#elif defined(__AVX2__)
+inline Doubles square_root(Doubles a) { return (Doubles)_mm256_sqrt_pd((__m256d)a); }
+inline Floats square_root(Floats a) { return (Floats)_mm256_sqrt_ps((__m256)a); }
 #else
-  for (int k = 0; k < 8; ++k) a[k] = std::sqrt(a[k]);
+template <class V>
+V square_root(V a) {
+  for (std::size_t k = 0; k < sizeof(V) / sizeof(a[0]); ++k) a[k] = std::sqrt(a[k]);
   return a;
-#endif
 }
-inline Float16 square_root(Float16 a) {
+#endif
+
+/// 1/a and 1/sqrt(a) to a few units in the last place: where there are estimates of 14 bits, from them by Newton steps
+/// y <- y (2 - a y) and y <- y (1.5 - a/2 y^2).
+template <class V>
+inline V reciprocal(V a) {
+  return 1 / a;
+}
+template <class V>
+inline V reciprocal_sqrt(V a) {
+  return 1 / square_root(a);
+}
 #ifdef __AVX512F__
-  return (Float16)_mm512_sqrt_ps((__m512)a);
-#else
-  for (int k = 0; k < 16; ++k) a[k] = std::sqrt(a[k]);
-  return a;
-#endif
+inline Doubles reciprocal(Doubles a) {
+  Doubles y = (Doubles)_mm512_rcp14_pd((__m512d)a);
+  y = y * (2.0 - a * y);
+  return y * (2.0 - a * y);
 }
+inline Floats reciprocal(Floats a) {
+  const Floats y = (Floats)_mm512_rcp14_ps((__m512)a);
+  return y * (2.0f - a * y);
+}
+inline Doubles reciprocal_sqrt(Doubles a) {
+  Doubles y = (Doubles)_mm512_rsqrt14_pd((__m512d)a);
+  const Doubles half = 0.5 * a;
+  y = y * (1.5 - half * y * y);
+  return y * (1.5 - half * y * y);
+}
+inline Floats reciprocal_sqrt(Floats a) {
+  const Floats y = (Floats)_mm512_rsqrt14_ps((__m512)a);
+  return y * (1.5f - 0.5f * a * y * y);
+}
+/// To a few units in the last place, and far faster than the instruction of that name; 0 of 0.
+inline Doubles square_root(Doubles a) { return a * reciprocal_sqrt(Doubles(a + 1e-300)); }
+inline Floats square_root(Floats a) { return a * reciprocal_sqrt(Floats(a + 1e-37f)); }
+#endif
 
 /// The same value, through which the compiler may not fuse a product into a later sum. Needed where a*b + c*d must be
 /// the same number as c*d + a*b.
@@ -146,54 +182,59 @@ inline double rounded(double a) {
 }
 template <class V>
 inline V rounded(V a) {
-#ifdef __AVX512F__
+#if defined(__AVX512F__)
   asm("" : "+v"(a));
+#elif defined(__AVX2__)
+  asm("" : "+x"(a));
 #else
   asm volatile("" : "+m"(a));
 #endif
   return a;
 }
 
-/// A sum in double precision of values that may come in single precision: W lanes of double in registers.
+/// A sum in double precision of values that may come in single precision: lanes of double in registers.
 template <class T>
 struct WideSum;
 template <>
 struct WideSum<double> {
-  Double8 sum{};
-  void add(double weight, Double8 value) { sum += weight * value; }
-  void add_product(double weight, Double8 a, Double8 b) { sum += weight * (a * b); }
+  Doubles sum{};
+  void add(double weight, Doubles value) { sum += weight * value; }
+  void add_product(double weight, Doubles a, Doubles b) { sum += weight * (a * b); }
   double lane(int k) const { return sum[k]; }
 };
 template <>
 struct WideSum<float> {
-  Double8 low{}, high{};
-  void add(double weight, Float16 value) {
+  Doubles low{}, high{};
+  void add(double weight, Floats value) {
     low += weight * lower(value);
     high += weight * upper(value);
   }
   /// The product itself is not rounded to single precision.
-  void add_product(double weight, Float16 a, Float16 b) {
+  void add_product(double weight, Floats a, Floats b) {
     low += weight * (lower(a) * lower(b));
     high += weight * (upper(a) * upper(b));
   }
-#ifdef __AVX512F__
-  static Double8 lower(Float16 v) { return (Double8)_mm512_cvtps_pd(_mm512_castps512_ps256((__m512)v)); }
-  static Double8 upper(Float16 v) {
-    return (Double8)_mm512_cvtps_pd(_mm256_castpd_ps(_mm512_extractf64x4_pd(_mm512_castps_pd((__m512)v), 1)));
+#if defined(__AVX512F__)
+  static Doubles lower(Floats v) { return (Doubles)_mm512_cvtps_pd(_mm512_castps512_ps256((__m512)v)); }
+  static Doubles upper(Floats v) {
+    return (Doubles)_mm512_cvtps_pd(_mm256_castpd_ps(_mm512_extractf64x4_pd(_mm512_castps_pd((__m512)v), 1)));
   }
+#elif defined(__AVX2__)
+  static Doubles lower(Floats v) { return (Doubles)_mm256_cvtps_pd(_mm256_castps256_ps128((__m256)v)); }
+  static Doubles upper(Floats v) { return (Doubles)_mm256_cvtps_pd(_mm256_extractf128_ps((__m256)v, 1)); }
 #else
-  static Double8 lower(Float16 v) {
-    Double8 half;
-    for (int k = 0; k < 8; ++k) half[k] = static_cast<double>(v[k]);
+  static Doubles lower(Floats v) {
+    Doubles half;
+    for (int k = 0; k < lanes<double>; ++k) half[k] = static_cast<double>(v[k]);
     return half;
   }
-  static Double8 upper(Float16 v) {
-    Double8 half;
-    for (int k = 0; k < 8; ++k) half[k] = static_cast<double>(v[k + 8]);
+  static Doubles upper(Floats v) {
+    Doubles half;
+    for (int k = 0; k < lanes<double>; ++k) half[k] = static_cast<double>(v[k + lanes<double>]);
     return half;
   }
 #endif
-  double lane(int k) const { return k < 8 ? low[k] : high[k - 8]; }
+  double lane(int k) const { return k < lanes<double> ? low[k] : high[k - lanes<double>]; }
 };
 
 }  // namespace ejecta::simd

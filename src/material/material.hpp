@@ -32,6 +32,11 @@ struct Material {
     return tensor_damage() && strength &&
            std::visit([](const auto& s) { return s.intact_fraction(1) != 1; }, *strength);
   }
+  /// Whether plastic strain breaks it.
+  bool breaks_in_shear() const {
+    const Collins* rock = strength ? std::get_if<Collins>(&*strength) : nullptr;
+    return rock && solid() && rock->breaks_in_shear();
+  }
   /// Whether it stays elastic up to large strains, as rubber does: without end, or beyond a strain of a twentieth.
   /// Particles that stretch so far must hold on to the neighbours of the start (schemes/pair_pass.hpp).
   bool stretches() const {

@@ -123,6 +123,9 @@ void describe(Describer& d, Collins& m) {
   describe(d, m.intact);
   constant(d, "damaged_cohesion", m.damaged_cohesion, "Pa", non_negative, "of broken rock");
   constant(d, "damaged_friction", m.damaged_friction, "1", non_negative, "coefficient of friction of broken rock");
+  d.number("brittle_ductile", m.brittle_ductile, "Pa", non_negative,
+           "pressure of the brittle-ductile transition; 0: plastic strain does not break the rock");
+  d.number("brittle_plastic", m.brittle_plastic, "Pa", non_negative, "pressure of the brittle-plastic transition");
 }
 
 void describe(Describer& d, SteinbergGuinan& m) {
@@ -285,7 +288,12 @@ void check_settings(const MaterialSettings& s, const Document& document, Problem
       report("strength.limit", fmt::format("expected more than the cohesion ({})", format_quantity(m.cohesion, "Pa")));
   };
   if (const auto* m = std::get_if<Lundborg>(&s.strength)) check_limit(*m);
-  if (const auto* m = std::get_if<Collins>(&s.strength)) check_limit(m->intact);
+  if (const auto* m = std::get_if<Collins>(&s.strength)) {
+    check_limit(m->intact);
+    if (m->brittle_ductile > 0 && m->brittle_plastic <= m->brittle_ductile)
+      report("strength.brittle_plastic",
+             fmt::format("expected more than brittle_ductile ({})", format_quantity(m->brittle_ductile, "Pa")));
+  }
   const PorositySettings& p = s.porosity;  // comparisons with values that are not set are false
   const std::string elastic = format_quantity(p.elastic_pressure, "Pa"),
                     solid = format_quantity(p.solid_pressure, "Pa");

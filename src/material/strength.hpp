@@ -61,7 +61,17 @@ struct Collins {
   Lundborg intact;
   double damaged_cohesion;  ///< c_d [Pa]
   double damaged_friction;  ///< mu_d; in tension the broken rock's strength falls as c_d + P
+  double brittle_ductile = 0, brittle_plastic = 0;  ///< pressures of the transitions [Pa]; 0: shear breaks nothing
 
+  bool breaks_in_shear() const { return brittle_ductile > 0; }
+  /// Plastic strain that breaks it: 0.01 at zero pressure, 0.05 at the brittle-ductile and 0.1 at the brittle-plastic
+  /// transition, straight lines in between; beyond that rock flows and hardly breaks, 1. [The same paper, recalled.]
+  double failure_strain(double pressure) const {
+    if (pressure >= brittle_plastic) return 1;
+    if (pressure >= brittle_ductile)
+      return 0.05 + 0.05 * (pressure - brittle_ductile) / (brittle_plastic - brittle_ductile);
+    return 0.01 + 0.04 * std::max(pressure, 0.0) / brittle_ductile;
+  }
   double yield(const StrengthState& s) const {
     const double whole = intact.yield(s);
     const double friction = s.pressure > 0 ? damaged_friction : 1;

@@ -5,6 +5,7 @@ namespace ejecta {
 double image_position(const Boundary& boundary, const Image& image, int axis, double x) {
   if (image.mirror[axis] < 0) return 2 * boundary.min[axis] - x;
   if (image.mirror[axis] > 0) return 2 * boundary.max[axis] - x;
+  if (image.shift[axis] == 0) return x;  // an open axis need not have bounds
   return x + image.shift[axis] * (boundary.max[axis] - boundary.min[axis]);
 }
 
@@ -75,7 +76,9 @@ void mirror(Particles<Dim>& particles, std::size_t i, int axis, double face) {
     if (!particles.has(f)) continue;
     for (int k : odd_components<Dim>(info(f).shape, axis)) {
       particles.column(f, k)[i] *= -1;
-      if (info(f).role == Role::rate) particles.previous(f, k)[i] *= -1;
+      if (info(f).role != Role::rate) continue;
+      particles.previous(f, k)[i] *= -1;
+      if (f != Field::acceleration) particles.expected(f, k)[i] *= -1;
     }
   }
 }

@@ -32,6 +32,7 @@ enum class Field {
   stress_rate,
   shear_modulus,
   plastic_strain,
+  shear_damage,
   distension,
   stress_factor,
   damage,

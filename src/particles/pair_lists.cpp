@@ -169,11 +169,12 @@ void PairLists<Dim>::search(std::size_t cluster, std::vector<std::uint32_t>& fou
     const double reach = std::max(own.support, node.support) + margin;
     return distance2 < reach * reach;
   };
-  const std::size_t groups = (members.end - members.begin + 7) / 8;
-  std::array<simd::Double8, 2> x[Dim], support, margin, metric[symmetric_size<Dim>], per_length;
+  constexpr std::size_t lanes = simd::lanes<double>, most_groups = largest_cluster / lanes;
+  const std::size_t groups = (members.end - members.begin + lanes - 1) / lanes;
+  std::array<simd::Doubles, most_groups> x[Dim], support, margin, metric[symmetric_size<Dim>], per_length;
   for (std::size_t g = 0; g < groups; ++g)
-    for (int k = 0; k < 8; ++k) {
-      const std::size_t i = std::min<std::size_t>(members.begin + 8 * g + static_cast<std::size_t>(k), members.end - 1);
+    for (std::size_t k = 0; k < lanes; ++k) {
+      const std::size_t i = std::min<std::size_t>(members.begin + lanes * g + k, members.end - 1);
       const Point& p = points_[i];
       for (int a = 0; a < Dim; ++a) x[a][g][k] = p.x[a];
       support[g][k] = p.support;
@@ -184,9 +185,9 @@ void PairLists<Dim>::search(std::size_t cluster, std::vector<std::uint32_t>& fou
     }
   auto near_any_member = [&](const Point& q) {
     for (std::size_t g = 0; g < groups; ++g) {
-      simd::Double8 distance2{};
+      simd::Doubles distance2{};
       for (int a = 0; a < Dim; ++a) distance2 += (x[a][g] - q.x[a]) * (x[a][g] - q.x[a]);
-      const simd::Double8 reach = simd::max(support[g], simd::Double8{} + q.support) + margin[g] + q.margin;
+      const simd::Doubles reach = simd::max(support[g], simd::all<simd::Doubles>(q.support)) + margin[g] + q.margin;
       if (simd::any_less(distance2, reach * reach)) return true;
     }
     return false;
@@ -194,7 +195,7 @@ void PairLists<Dim>::search(std::size_t cluster, std::vector<std::uint32_t>& fou
   // |H x| grows by at most |H| times the margin while the lists are in use.
   auto ellipsoids_meet = [&](const Point& q, const Ellipsoid& e) {
     for (std::size_t g = 0; g < groups; ++g) {
-      simd::Double8 dx[Dim], own_eta2{}, other_eta2{};
+      simd::Doubles dx[Dim], own_eta2{}, other_eta2{};
       for (int a = 0; a < Dim; ++a) dx[a] = x[a][g] - q.x[a];
       int s = Dim;
       for (int a = 0; a < Dim; ++a) {
@@ -205,8 +206,8 @@ void PairLists<Dim>::search(std::size_t cluster, std::vector<std::uint32_t>& fou
           other_eta2 += 2 * e.metric[s] * dx[a] * dx[b];
         }
       }
-      const simd::Double8 widening = margin[g] + q.margin;
-      const simd::Double8 own_reach = support_per_h_ + widening * per_length[g],
+      const simd::Doubles widening = margin[g] + q.margin;
+      const simd::Doubles own_reach = support_per_h_ + widening * per_length[g],
                           other_reach = support_per_h_ + widening * e.per_length;
       if (simd::any_less(own_eta2, own_reach * own_reach) || simd::any_less(other_eta2, other_reach * other_reach))
         return true;

@@ -5,10 +5,13 @@
 #include <span>
 #include <vector>
 
+#include "base/simd.hpp"
 #include "particles/boundary_images.hpp"
 #include "particles/particles.hpp"
 
 namespace ejecta {
+
+inline constexpr std::size_t largest_cluster = 16;
 
 struct Cluster {
   std::uint32_t begin, end;                  ///< members: particles begin..end-1, of one material, at most W
@@ -20,7 +23,7 @@ class PairLists {
  public:
   struct Settings {
     double support = 2;  ///< support radius of the kernel in units of h
-    std::size_t cluster_size = 8;
+    std::size_t cluster_size = simd::lanes<double>;  ///< at most largest_cluster
     double horizon = 0;  ///< time for which lists should stay valid [s]
     Boundary boundary;
   };

@@ -16,7 +16,9 @@ void Particles<Dim>::allocate(std::size_t n, std::span<const Field> fields) {
     for (int k = 0; k < components(f.shape, Dim); ++k) {
       const std::size_t s = index(f.field) * max_components + static_cast<std::size_t>(k);
       columns_[s].assign(has(f.field) ? n : 0, 0.0);
-      previous_[s].assign(has(f.field) && f.role == Role::rate ? n : 0, 0.0);
+      const bool rate = has(f.field) && f.role == Role::rate;
+      previous_[s].assign(rate ? n : 0, 0.0);
+      expected_[s].assign(rate && f.field != Field::acceleration ? n : 0, 0.0);
     }
   for (auto& label : labels_) label.assign(n, 0);
   scratch_.assign(n, 0.0);
@@ -47,6 +49,7 @@ void Particles<Dim>::reorder(std::span<const std::uint32_t> order) {
   };
   for (auto& column : columns_) permute(column, scratch_);
   for (auto& column : previous_) permute(column, scratch_);
+  for (auto& column : expected_) permute(column, scratch_);
   for (auto& label : labels_) permute(label, label_scratch_);
 }
 
@@ -55,6 +58,7 @@ std::size_t Particles<Dim>::bytes() const {
   std::size_t doubles = scratch_.capacity(), labels = label_scratch_.capacity();
   for (const auto& column : columns_) doubles += column.capacity();
   for (const auto& column : previous_) doubles += column.capacity();
+  for (const auto& column : expected_) doubles += column.capacity();
   for (const auto& label : labels_) labels += label.capacity();
   return doubles * sizeof(double) + labels * sizeof(std::int32_t);
 }

@@ -18,7 +18,8 @@ template <int Dim>
 class Particles {
  public:
   /// n particles with the given fields (position, velocity, acceleration and mass are always there), all zero.
-  /// Every rate gets a second column for its value at the previous step, which the integrator needs.
+  /// Every rate gets two more columns, which the integrator needs: its value at the previous step, and what it is
+  /// expected to be at the end of the present one.
   void allocate(std::size_t n, std::span<const Field> fields);
 
   std::size_t size() const { return size_; }
@@ -32,6 +33,9 @@ class Particles {
   /// The same of a rate at the previous step.
   std::span<double> previous(Field rate, int component = 0) { return previous_[slot(rate, component)]; }
   std::span<const double> previous(Field rate, int component = 0) const { return previous_[slot(rate, component)]; }
+  /// What a rate is expected to be at the end of the step; between predict() and correct() only.
+  std::span<double> expected(Field rate, int component = 0) { return expected_[slot(rate, component)]; }
+  std::span<const double> expected(Field rate, int component = 0) const { return expected_[slot(rate, component)]; }
   /// Makes the current rates the previous ones without copying.
   void swap_rates();
 
@@ -83,7 +87,7 @@ class Particles {
 
   std::size_t size_ = 0;
   std::array<bool, field_count> present_{};
-  std::array<std::vector<double>, field_count * max_components> columns_, previous_;
+  std::array<std::vector<double>, field_count * max_components> columns_, previous_, expected_;
   std::array<std::vector<std::int32_t>, static_cast<std::size_t>(Label::count)> labels_;
   std::vector<Range> material_ranges_;
   std::vector<double> scratch_;

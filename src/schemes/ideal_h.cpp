@@ -75,19 +75,19 @@ bool at_least_one(const Mat<Dim>& m) {
   return Dim == 2 || excess.determinant() > 0;
 }
 
-using simd::Double8;
-constexpr Double8 counting{0, 1, 2, 3, 4, 5, 6, 7};
+using simd::Doubles;
+constexpr int width = simd::lanes<double>;
 
-/// Eight numbers from a place on.
-Double8 load(const double* from) {
-  Double8 v;
+/// As many numbers as a register holds, from a place on.
+Doubles load(const double* from) {
+  Doubles v;
   std::memcpy(&v, from, sizeof v);
   return v;
 }
-void store(double* to, Double8 v) { std::memcpy(to, &v, sizeof v); }
+void store(double* to, Doubles v) { std::memcpy(to, &v, sizeof v); }
 
-Double8 smooth_step(double a, double b, Double8 x) {
-  const Double8 t = simd::min(simd::max((x - a) * (1 / (b - a)), Double8{}), Double8{} + 1.0);
+Doubles smooth_step(double a, double b, Doubles x) {
+  const Doubles t = simd::min(simd::max((x - a) * (1 / (b - a)), Doubles{}), Doubles{} + 1.0);
   return t * t * (3 - 2 * t);
 }
 
@@ -120,11 +120,11 @@ template <int Dim, class V>
 void FirstShells<Dim, V>::add(const V (&x)[Dim], V apart) {
   V image[Dim], u[Dim];
   const V eta2 = quadratic_form<Dim>(metric_, x, image) + apart;
-  if (!simd::any_less(eta2, V{} + support2_)) return;
+  if (!simd::any_less(eta2, simd::all<V>(support2_))) return;
   quadratic_form<Dim>(to_nodes_, x, u);
   V u2 = u[0] * u[0];
   for (int a = 1; a < Dim; ++a) u2 += u[a] * u[a];
-  const auto counts = (eta2 < V{} + support2_) & (u2 > V{} + coincident * coincident);
+  const auto counts = (eta2 < simd::all<V>(support2_)) & (u2 > V{} + coincident * coincident);
   const V zero{}, one = zero + 1.0;
   neighbours_ += counts ? one : zero;
   for (V& component : u) component = counts ? component : zero;
@@ -158,28 +158,29 @@ ShapeVote<Dim> FirstShells<Dim, V>::vote(int lane, double reach) {
   ShapeVote<Dim> result;
   result.log_covariance = symmetric_of<Dim>(-shell.log_metric);
   if (shell.kept == 0) return result;
-  for (int k = shell.kept; k % 8; ++k) {  // points at 0 fill the last vector up and are behind nothing
+  for (int k = shell.kept; k % width; ++k) {  // points at 0 fill the last vector up and are behind nothing
     for (auto& column : shell.u) column[k] = 0;
     shell.u2[k] = 1;
   }
   Column reciprocal;
-  for (int k = 0; k < shell.kept; k += 8) store(&reciprocal[k], 1 / load(&shell.u2[k]));
+  for (int k = 0; k < shell.kept; k += width) store(&reciprocal[k], 1 / load(&shell.u2[k]));
   // Candidate j is behind k if it lies beyond the plane through k across the line to k. tau = (u_j.u_k)/|u_k|^2 = 1 on
   // the plane; 1/2 is the Voronoi cell's. Those behind none make the first shell.
   std::array<Column, Dim> n;  ///< directions of its members
   Column u2, share;
   int size = 0;
-  for (int j = 0; j < shell.kept; j += 8) {
-    Double8 u[Dim], tau{};
+  for (int j = 0; j < shell.kept; j += width) {
+    Doubles u[Dim], tau{};
     for (int a = 0; a < Dim; ++a) u[a] = load(&shell.u[a][j]);
-    const Double8 place = counting + j;
+    Doubles place;
+    for (int k = 0; k < width; ++k) place[k] = j + k;
     for (int k = 0; k < shell.kept; ++k) {
-      Double8 along = u[0] * shell.u[0][k];
+      Doubles along = u[0] * shell.u[0][k];
       for (int a = 1; a < Dim; ++a) along += u[a] * shell.u[a][k];
-      tau = place != Double8{} + k ? simd::max(tau, along * reciprocal[k]) : tau;
+      tau = place != simd::all<Doubles>(static_cast<double>(k)) ? simd::max(tau, along * reciprocal[k]) : tau;
     }
-    const Double8 in_front = 1 - smooth_step(shadow_begin, shadow_end, tau);
-    for (int k = 0; k < std::min(8, shell.kept - j); ++k) {
+    const Doubles in_front = 1 - smooth_step(shadow_begin, shadow_end, tau);
+    for (int k = 0; k < std::min(width, shell.kept - j); ++k) {
       if (!(in_front[k] > 0)) continue;
       const double r = std::sqrt(reciprocal[j + k]);
       for (int a = 0; a < Dim; ++a) n[a][size] = r * shell.u[a][j + k];
@@ -187,18 +188,18 @@ ShapeVote<Dim> FirstShells<Dim, V>::vote(int lane, double reach) {
       share[size++] = in_front[k];
     }
   }
-  for (int k = size; k % 8; ++k)
+  for (int k = size; k % width; ++k)
     for (auto& column : n) column[k] = 0;
   // A neighbour without one opposite counts for that too: at a surface the shell is completed by its mirror image.
   double moment_sum[symmetric_size<Dim>] = {}, cover_sum[symmetric_size<Dim>] = {}, weight = 0;
-  for (int j = 0; j < size; j += 8) {
-    Double8 opposite{};
+  for (int j = 0; j < size; j += width) {
+    Doubles opposite{};
     for (int k = 0; k < size; ++k) {
-      Double8 cosine = load(&n[0][j]) * n[0][k];
+      Doubles cosine = load(&n[0][j]) * n[0][k];
       for (int a = 1; a < Dim; ++a) cosine += load(&n[a][j]) * n[a][k];
       opposite = simd::max(opposite, share[k] * smooth_step(0.5, 0.8, -cosine));
     }
-    for (int k = j; k < std::min(j + 8, size); ++k) {
+    for (int k = j; k < std::min(j + width, size); ++k) {
       const double w = share[k] * (2 - opposite[k - j]);
       double direction[Dim];
       for (int a = 0; a < Dim; ++a) direction[a] = n[a][k];
@@ -289,12 +290,12 @@ double aspect(const Mat<Dim>& metric) {
 
 template class FirstShells<2, double>;
 template class FirstShells<3, double>;
-template class FirstShells<2, Double8>;
-template class FirstShells<3, Double8>;
+template class FirstShells<2, Doubles>;
+template class FirstShells<3, Doubles>;
 template class VoteMean<2, double>;
 template class VoteMean<3, double>;
-template class VoteMean<2, Double8>;
-template class VoteMean<3, Double8>;
+template class VoteMean<2, Doubles>;
+template class VoteMean<3, Doubles>;
 template Mat<2> reshaped<2>(const Mat<2>&, const Symmetric<2>&, bool, const ShapeLimits&, ShapeActions&);
 template Mat<3> reshaped<3>(const Mat<3>&, const Symmetric<3>&, bool, const ShapeLimits&, ShapeActions&);
 template double aspect<2>(const Mat<2>&);

@@ -64,8 +64,8 @@ struct ShapeVote {
   double spacing = 0;     ///< root mean square distance to the first shell per axis, in units of h/n_h
 };
 
-/// Collects the neighbours of some particles, one in each lane of V (double or simd::Double8), and lets each vote.
-template <int Dim, class V = simd::Double8>
+/// Collects the neighbours of some particles, one in each lane of V (double or simd::Doubles), and lets each vote.
+template <int Dim, class V = simd::Doubles>
 class FirstShells {
  public:
   static constexpr int lanes = sizeof(V) / sizeof(double);
@@ -106,7 +106,7 @@ class FirstShells {
   std::array<Shell, lanes> shells_;
 };
 
-/// Weighted means of the votes of particles, one in each lane of V (double or simd::Double8), and their neighbours, and
+/// Weighted means of the votes of particles, one in each lane of V (double or simd::Doubles), and their neighbours, and
 /// how much to trust them.
 template <int Dim, class V = double>
 class VoteMean {

@@ -23,11 +23,11 @@ struct ScalarOf {
   using type = V;
 };
 template <>
-struct ScalarOf<simd::Double8> {
+struct ScalarOf<simd::Doubles> {
   using type = double;
 };
 template <>
-struct ScalarOf<simd::Float16> {
+struct ScalarOf<simd::Floats> {
   using type = float;
 };
 template <class V>

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "base/simd.hpp"
 #include "particles/pair_lists.hpp"
 #include "particles/particles.hpp"
 #include "scene/scene.hpp"
@@ -82,7 +83,9 @@ class PairPass {
 };
 
 /// Number of particles per cluster that the passes of this precision expect in the lists.
-inline std::size_t cluster_size(Precision precision) { return precision == Precision::mixed ? 16 : 8; }
+inline std::size_t cluster_size(Precision precision) { 
+  return precision == Precision::mixed ? simd::lanes<float> : simd::lanes<double>;
+}
 
 template <int Dim>
 std::unique_ptr<PairPass<Dim>> make_pair_pass(const PairPassSettings& settings);

@@ -38,6 +38,7 @@ class PairPassOf final : public PairPass<Dim> {
   using Partner = pair_detail::Partner<T, V, Dim, Kind.record(), typename Support::Pair>;
   using TensorSum = pair_detail::TensorSum<V, Dim>;
   using Shares = pair_detail::WeightShares<V>;
+  using Alike = pair_detail::Alike<T, V, R>;
 
   RecordScales scales() const {
     return {K::template norm<Dim>, K::support, K::reduced_scale, K::reduced_over_r, settings_.length_unit};
@@ -49,9 +50,9 @@ class PairPassOf final : public PairPass<Dim> {
     for (int k = 0; k < values; k += line) __builtin_prefetch(record + k);
   }
   /// Mixed: members or candidates of several pieces.
-  template <bool Mixed, class Count, class Body>
+  template <bool Mixed, class Count, class... Bodies>
   void for_partners(const Members& members, const Support& support, std::span<const std::uint32_t> candidates,
-                    int values, Count&& count, Body&& body) const;
+                    int values, Count&& count, Bodies&&... bodies) const;
   void feel(std::size_t cluster, const PairLists<Dim>& lists);
   template <bool Mixed>
   void look_around(Particles<Dim>& particles, const Cluster& c, std::span<const std::uint32_t> candidates);
@@ -71,15 +72,16 @@ class PairPassOf final : public PairPass<Dim> {
   Surroundings<Dim> around_;
 };
 
-/// Candidates go in batches through two short loops: who is within reach of any lane, and what passes between those.
-/// Lists have margins, so many are not; and chains of dependent operations overlap better in short loops. Who is
-/// within reach is kept as bits in a register: an address made of it would hold up the loads that follow.
-/// Calls count(pair) for every candidate and body(partner) for those within reach.
+/// Candidates go in batches through short loops: who is within reach of any lane, and what passes between those, in one
+/// loop for each body. Lists have margins, so many are not; chains of dependent operations overlap better in short
+/// loops; and the sums of each stay in registers. Who is within reach is kept as bits in a register: an address made of
+/// it would hold up the loads that follow.
+/// Calls count(pair) for every candidate and each body(partner) for those within reach.
 template <class T, int Dim, PassKind Kind, class K>
-template <bool Mixed, class Count, class Body>
+template <bool Mixed, class Count, class... Bodies>
 void PairPassOf<T, Dim, Kind, K>::for_partners(const Members& members, const Support& support,
                                                std::span<const std::uint32_t> candidates, int values, Count&& count,
-                                               Body&& body) const {
+                                               Bodies&&... bodies) const {
   constexpr std::size_t batch = 32;
   Partner partners[batch];
   for (std::size_t begin = 0; begin < candidates.size(); begin += batch) {
@@ -96,7 +98,10 @@ void PairPassOf<T, Dim, Kind, K>::for_partners(const Members& members, const Sup
       count(p.pair);
       reached |= std::uint64_t{simd::any_less(V{}, p.pair.reach())} << (place - begin);
     }
-    for (; reached != 0; reached &= reached - 1) body(partners[std::countr_zero(reached)]);
+    const auto for_reached = [&](auto& body) __attribute__((always_inline)) {
+      for (std::uint64_t left = reached; left != 0; left &= left - 1) body(partners[std::countr_zero(left)]);
+    };
+    (for_reached(bodies), ...);
   }
 }
 
@@ -169,7 +174,7 @@ void PairPassOf<T, Dim, Kind, K>::look_around(Particles<Dim>& particles, const C
   [[maybe_unused]] pair_detail::Touch<T, V, R, Dim> touch;
   if constexpr (Mixed) touch = members.touch(touches_.data(), settings_.friction);
   const V expansion = members.loader()(R::expansion), compression = members.loader()(R::compression);
-  const T alike = static_cast<T>(settings_.alike);
+  const Alike alike(settings_.alike, expansion, compression);
   constexpr bool along = !Kind.tensor && !Kind.bonded;  // the gradient is along the pair
   std::conditional_t<along, pair_detail::SymmetricSum<V, Dim>, TensorSum> moment;
   [[maybe_unused]] TensorSum touched;
@@ -178,18 +183,18 @@ void PairPassOf<T, Dim, Kind, K>::look_around(Particles<Dim>& particles, const C
       members, support, candidates, R::v, [](const auto&) {},
       [&](const Partner& p) __attribute__((always_inline)) {
         const T volume = p.record[R::volume];
-        const Shares shares(alike, expansion, compression, p.record[R::expansion], p.record[R::compression]);
-        V gradient[Dim], weighted[Dim];
+        V weight = simd::all<V>(volume), gradient[Dim], weighted[Dim];
+        if (!alike.with(p.record))
+          weight *= Shares(alike.limit, expansion, compression, p.record[R::expansion], p.record[R::compression]).own;
         p.kernel_gradient(gradient);
-        for (int b = 0; b < Dim; ++b) weighted[b] = volume * shares.own * gradient[b];
+        for (int b = 0; b < Dim; ++b) weighted[b] = weight * gradient[b];
         if constexpr (Mixed)
           if (p.foreign) {
             const V own = members.own(p);
             V others[Dim], own_share, other_share;
-            touch.shares(p, own_share, other_share);
-            const V weight = touch.weight(p, own) * own_share;
+            touch.shares(p, own, own_share, other_share);
             for (int b = 0; b < Dim; ++b) {
-              others[b] = weight * (volume * gradient[b]);
+              others[b] = own_share * (volume * gradient[b]);
               weighted[b] *= own;
             }
             touched.add(p.dx, others);
@@ -226,118 +231,128 @@ void PairPassOf<T, Dim, Kind, K>::cluster_rates(Particles<Dim>& particles, const
   }
   const V expansion = load(R::expansion), compression = load(R::compression);
   const V density = load(R::density), sound_speed = load(R::sound_speed), viscosity_factor = load(R::viscosity_factor);
-  const T alike = static_cast<T>(settings_.alike);
+  const Alike alike(settings_.alike, expansion, compression);
   const T half_alpha = static_cast<T>(0.5 * settings_.viscosity_alpha), beta = static_cast<T>(settings_.viscosity_beta);
   [[maybe_unused]] pair_detail::Touch<T, V, R, Dim> touch;
   if constexpr (Mixed) touch = members.touch(touches_.data(), settings_.friction);
 
-  simd::WideSum<T> acceleration[Dim], heat, friction_heat;        // heat: twice what the pairs give
+  constexpr bool along_gradient = !Kind.stress || (!Kind.tensor && !Kind.bonded);  // viscosity acts along it
+  simd::WideSum<T> acceleration[Dim], heat, friction_heat;                         // heat: twice what the pairs give
   [[maybe_unused]] TensorSum gradient, touched, cut, cut_moment;  // cut: the share that cracks take off
   V divergence{}, moment{}, fastest{};
+  const auto forces = [&](const Partner& p) __attribute__((always_inline)) {
+    const T* j = p.record;
+    const T volume = j[R::volume];
+    V dv[Dim], kernel_gradient[Dim], force[Dim];
+    for (int a = 0; a < Dim; ++a) dv[a] = j[R::v + a] - v[a];
+    p.kernel_gradient(kernel_gradient);
+    const V along = pair_detail::dot(dv, p.dx), central = p.central();
+    V closing = along;
+    if constexpr (Kind.gradient) {
+      const pair_detail::Squares<V, Dim> squares(p.dx);
+      const V shared = pair_detail::smooth_closing(squares.along(strain), squares.along(j + R::strain), along);
+      closing -= simd::rounded(V((smooth + j[R::smooth]) * shared));
+    }
+    V limiter = viscosity_factor + j[R::viscosity_factor];
+    [[maybe_unused]] V own, uneven[Dim];  // uneven: what the stress of i gives more than that of j
+    if constexpr (Mixed)
+      if (p.foreign) {
+        own = members.own(p);
+        closing = own > T(0) ? closing : touch.closing(p, dv, along);
+        limiter = own > T(0) ? limiter : V(touch.weight(p, own) * touch.softness(p, sound_speed));
+      }
+    const Fraction<V> approach = support.approach(p.pair, p.r2, closing, j);
+    const V densities = density + j[R::density], quotient = simd::reciprocal(V(approach.under * densities));
+    const V mu = approach.over * (densities * quotient);
+    const V mean_density = T(2) * density * j[R::density] * (approach.under * quotient);
+    const V viscosity = limiter * (expansion * j[R::expansion]) * mean_density *
+                        (mu * (beta * mu - half_alpha * (sound_speed + j[R::sound_speed])));
+    // With corrected gradients no torque is left but that of a viscosity off the pair's axis. Elsewhere that of
+    // smoothing tensors follows their gradient: across shocks it is the better one.
+    const V pressure = along_gradient ? viscosity : V{};
+    // In single precision always: both sides of a pair must round alike, whatever else is in their clusters.
+    if (R::split || (Mixed && p.foreign) || !alike.with(j)) {
+      const Shares shares(alike.limit, expansion, compression, j[R::expansion], j[R::compression]);
+      V ours[R::stresses], theirs[R::stresses];
+      for (int s = 0; s < R::stresses; ++s) {
+        ours[s] = shares.own * stress[s];
+        theirs[s] = shares.other * j[R::stress + s];
+      }
+      if constexpr (Mixed)
+        if (p.foreign) {
+          V own_share, other_share;
+          touch.shares(p, own, own_share, other_share);
+          for (int s = 0; s < R::stresses; ++s) {
+            ours[s] = own > T(0) ? ours[s] : V(own_share * touch.press[s]);
+            theirs[s] = own > T(0) ? theirs[s] : V(other_share * p.touch[R::press + s]);
+          }
+        }
+      // Rounded before the sum, as in the kernels: seen from j it must be the same number.
+      for (int s = 0; s < R::stresses; ++s) {
+        ours[s] = simd::rounded(ours[s]);
+        theirs[s] = simd::rounded(theirs[s]);
+      }
+      pair_detail::contract<Kind.stress, Dim>(ours, theirs, pressure, kernel_gradient, force);
+      if constexpr (R::split)
+        pair_detail::contract<Kind.stress, Dim, -1>(ours, theirs, pressure, kernel_gradient, uneven);
+    } else {
+      pair_detail::contract<Kind.stress, Dim>(stress, j + R::stress, pressure, kernel_gradient, force);
+    }
+    if constexpr (!along_gradient)
+      for (int a = 0; a < Dim; ++a) force[a] -= viscosity * (central * p.dx[a]);
+    if constexpr (R::split) {
+      // Half of the work of the very force that acts, and what the two stresses differ by: the first is the same
+      // number for j, the second its negative, so that work and heat differ by the rounding of dv alone.
+      for (int a = 0; a < Dim; ++a) heat.add_product(volume, force[a], dv[a]);
+      heat.add(volume, pair_detail::dot(uneven, dv));
+    } else {
+      heat.add(-volume, viscosity * (Kind.stress ? V(central * along) : pair_detail::dot(dv, kernel_gradient)));
+    }
+    if constexpr (Mixed)
+      if (p.foreign && touch.friction > 0)
+        friction_heat.add(
+            volume,
+            touch.rub(p, dv, own, force, V((expansion * j[R::expansion]) * (central * simd::square_root(p.r2)))));
+    for (int a = 0; a < Dim; ++a) acceleration[a].add(volume, force[a]);
+    fastest = simd::min(fastest, V(p.pair.moment > 0 ? mu : V{}));
+  };
+  const auto gradients = [&](const Partner& p) __attribute__((always_inline)) {
+    const T* j = p.record;
+    V dv[Dim], kernel_gradient[Dim], weight = simd::all<V>(j[R::volume]);
+    for (int a = 0; a < Dim; ++a) dv[a] = j[R::v + a] - v[a];
+    if (!alike.with(j))
+      weight *= Shares(alike.limit, expansion, compression, j[R::expansion], j[R::compression]).own;
+    p.kernel_gradient(kernel_gradient);
+    if constexpr (Kind.gradient) {
+      V weighted[Dim];
+      for (int b = 0; b < Dim; ++b) weighted[b] = weight * kernel_gradient[b];
+      if constexpr (Mixed)
+        if (p.foreign) {
+          const V own = members.own(p);
+          V others[Dim], own_share, other_share;
+          touch.shares(p, own, own_share, other_share);
+          for (int b = 0; b < Dim; ++b) {
+            others[b] = own_share * (j[R::volume] * kernel_gradient[b]);
+            weighted[b] *= own;
+          }
+          touched.add(dv, others);
+        }
+      gradient.add(dv, weighted);
+      if constexpr (Kind.coupled) {
+        V across = simd::max(pair_detail::along<Dim>(damage, p.dx), pair_detail::along<Dim>(j + R::damage, p.dx));
+        if (simd::any_less(V{}, across)) {  // most matter has no cracks
+          across = simd::min(V(across * simd::reciprocal(V(p.r2 + support_detail::guard<T>))), V{} + T(1));
+          for (int b = 0; b < Dim; ++b) weighted[b] *= across;
+          cut.add(dv, weighted);
+          cut_moment.add(p.dx, weighted);
+        }
+      }
+    } else {
+      divergence += weight * pair_detail::dot(dv, kernel_gradient);
+    }
+  };
   for_partners<Mixed>(
-      members, support, candidates, R::size, [&](const auto& pair) { moment += pair.moment; },
-      [&](const Partner& p) __attribute__((always_inline)) {  // its sums are to stay in registers
-        const T* j = p.record;
-        const T volume = j[R::volume];
-        V dv[Dim], kernel_gradient[Dim], force[Dim];
-        for (int a = 0; a < Dim; ++a) dv[a] = j[R::v + a] - v[a];
-        p.kernel_gradient(kernel_gradient);
-        const V along = pair_detail::dot(dv, p.dx), central = p.central();
-        const Shares shares(alike, expansion, compression, j[R::expansion], j[R::compression]);
-        V closing = along;
-        if constexpr (Kind.gradient) {
-          const pair_detail::Squares<V, Dim> squares(p.dx);
-          const V shared = pair_detail::smooth_closing(squares.along(strain), squares.along(j + R::strain), along);
-          closing -= simd::rounded(V((smooth + j[R::smooth]) * shared));
-        }
-        V limiter = viscosity_factor + j[R::viscosity_factor];
-        [[maybe_unused]] V own, uneven[Dim], own_share;  // uneven: what the stress of i gives more than that of j
-        if constexpr (Mixed)
-          if (p.foreign) {
-            own = members.own(p);
-            closing = own > T(0) ? closing : touch.closing(p, dv, along);
-            limiter = own > T(0) ? limiter : V(touch.weight(p, own) * touch.softness(p, sound_speed));
-          }
-        const V mu = support.approach(p.pair, p.r2, closing, j);
-        const V mean_density = T(2) * density * j[R::density] * simd::reciprocal(V(density + j[R::density]));
-        const V viscosity = limiter * (expansion * j[R::expansion]) * mean_density *
-                            (mu * (beta * mu - half_alpha * (sound_speed + j[R::sound_speed])));
-        // In single precision always: both sides of a pair must round alike, whatever else is in their clusters.
-        if (R::split || (Mixed && p.foreign) || !shares.even()) {
-          V ours[R::stresses], theirs[R::stresses];
-          for (int s = 0; s < R::stresses; ++s) {
-            ours[s] = shares.own * stress[s];
-            theirs[s] = shares.other * j[R::stress + s];
-          }
-          if constexpr (Mixed)
-            if (p.foreign) {
-              V other_share;
-              touch.shares(p, own_share, other_share);
-              own_share *= touch.weight(p, own);
-              other_share *= touch.weight(p, own);
-              for (int s = 0; s < R::stresses; ++s) {
-                ours[s] = own > T(0) ? ours[s] : V(own_share * touch.press[s]);
-                theirs[s] = own > T(0) ? theirs[s] : V(other_share * p.touch[R::press + s]);
-              }
-            }
-          // Rounded before the sum, as in the kernels: seen from j it must be the same number.
-          for (int s = 0; s < R::stresses; ++s) {
-            ours[s] = simd::rounded(ours[s]);
-            theirs[s] = simd::rounded(theirs[s]);
-          }
-          pair_detail::contract<Kind.stress, Dim>(ours, theirs, kernel_gradient, force);
-          if constexpr (R::split) pair_detail::contract<Kind.stress, Dim, -1>(ours, theirs, kernel_gradient, uneven);
-        } else {
-          pair_detail::contract<Kind.stress, Dim>(stress, j + R::stress, kernel_gradient, force);
-        }
-        V drag[Dim];
-        for (int a = 0; a < Dim; ++a) {
-          // With corrected gradients no torque is left but that of a viscosity off the pair's axis. Elsewhere that of
-          // smoothing tensors follows their gradient: across shocks it is the better one.
-          drag[a] = viscosity * (Kind.stress ? V(central * p.dx[a]) : kernel_gradient[a]);
-          force[a] -= drag[a];
-        }
-        if constexpr (R::split) {
-          // Half of the work of the very force that acts, and what the two stresses differ by: the first is the same
-          // number for j, the second its negative, so that work and heat differ by the rounding of dv alone.
-          for (int a = 0; a < Dim; ++a) heat.add_product(volume, force[a], dv[a]);
-          heat.add(volume, pair_detail::dot(uneven, dv));
-        } else {
-          heat.add(-volume, pair_detail::dot(dv, drag));
-        }
-        if constexpr (Mixed)
-          if (p.foreign && touch.friction > 0)
-            friction_heat.add(
-                volume,
-                touch.rub(p, dv, own, force, V((expansion * j[R::expansion]) * (central * simd::square_root(p.r2)))));
-        for (int a = 0; a < Dim; ++a) acceleration[a].add(volume, force[a]);
-        if constexpr (Kind.gradient) {
-          V weighted[Dim];
-          for (int b = 0; b < Dim; ++b) weighted[b] = volume * shares.own * kernel_gradient[b];
-          if constexpr (Mixed)
-            if (p.foreign) {
-              V others[Dim];
-              for (int b = 0; b < Dim; ++b) {
-                others[b] = own > T(0) ? V{} : V(own_share * (volume * kernel_gradient[b]));
-                weighted[b] *= own;
-              }
-              touched.add(dv, others);
-            }
-          gradient.add(dv, weighted);
-          if constexpr (Kind.coupled) {
-            V across = simd::max(pair_detail::along<Dim>(damage, p.dx), pair_detail::along<Dim>(j + R::damage, p.dx));
-            if (simd::any_less(V{}, across)) {  // most matter has no cracks
-              across = simd::min(V(across * simd::reciprocal(V(p.r2 + support_detail::guard<T>))), V{} + T(1));
-              for (int b = 0; b < Dim; ++b) weighted[b] *= across;
-              cut.add(dv, weighted);
-              cut_moment.add(p.dx, weighted);
-            }
-          }
-        } else {
-          divergence += volume * shares.own * pair_detail::dot(dv, kernel_gradient);
-        }
-        fastest = simd::min(fastest, V(p.pair.moment > 0 ? mu : V{}));
-      });
+      members, support, candidates, R::size, [&](const auto& pair) { moment += pair.moment; }, forces, gradients);
 
   const double per_unit = 1 / settings_.length_unit, unit_volume = std::pow(settings_.length_unit, Dim);
   for (std::size_t i = c.begin; i < c.end; ++i) {

@@ -85,13 +85,13 @@ TouchingStress<Dim> corrected(const Mat<Dim>& sigma, const Surroundings<Dim>& ar
   return touching_stress<Dim>(sigma, sums.normal(), own, around.correction(sums.moment + sums.touched));
 }
 
-/// The symmetric part of a velocity gradient [1/s].
+/// The symmetric part of a velocity gradient [1/s], with what is off its diagonal twice.
 template <int Dim>
 Symmetric<Dim> rate_of_strain(const Mat<Dim>& L) {
   Symmetric<Dim> e;
   for (int a = 0, k = Dim; a < Dim; ++a) {
     e[a] = L(a, a);
-    for (int b = a + 1; b < Dim; ++b, ++k) e[k] = 0.5 * (L(a, b) + L(b, a));
+    for (int b = a + 1; b < Dim; ++b, ++k) e[k] = L(a, b) + L(b, a);
   }
   return e;
 }

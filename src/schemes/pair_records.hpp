@@ -92,7 +92,7 @@ struct PairRecord {
   static constexpr int stress = viscosity_factor + 1;  ///< r^2 T (gradient_correction.hpp), or -r^2 P alone [Pa]
   static constexpr int damage = stress + stresses;     ///< damage tensor, if coupled
   static constexpr int smooth = damage + (Kind.coupled ? symmetric_size<Dim> : 0);  ///< half of 1 - shock_switch
-  static constexpr int strain = smooth + (Kind.strained ? 1 : 0);                   ///< times length_unit
+  static constexpr int strain = smooth + (Kind.strained ? 1 : 0);                   ///< e_xx e_yy 2 e_xy | ..., times length_unit
   static constexpr int size = strain + (Kind.strained ? symmetric_size<Dim> : 0);
 
   // A record of its own, for touching pieces only.

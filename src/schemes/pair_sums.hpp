@@ -1,6 +1,8 @@
 #pragma once
 /// Parts of the pair loop: the members of a cluster in their lanes, how a partner looks from there, what touching
 /// pieces do to each other, and sums that make a tensor.
+#include <cmath>
+
 #include "base/simd.hpp"
 #include "base/types.hpp"
 #include "particles/pair_lists.hpp"
@@ -16,10 +18,13 @@ V dot(const V (&a)[Dim], const V (&b)[Dim]) {
   return sum;
 }
 
-/// ((A + Sign B) . g)_a with tensors stored row by row, or one number each for isotropic stresses.
+/// ((A + Sign B - pressure I) . g)_a with tensors stored row by row, or one number each for isotropic stresses.
 template <bool Stress, int Dim, int Sign = 1, class TensorA, class TensorB, class V>
-void contract(const TensorA& A, const TensorB& B, const V (&g)[Dim], V (&f)[Dim]) {
-  const auto both = [&](int k) { return Sign > 0 ? V(A[k] + B[k]) : V(A[k] - B[k]); };
+[[gnu::always_inline]] inline void contract(const TensorA& A, const TensorB& B, V pressure, const V (&g)[Dim], V (&f)[Dim]) {
+  const auto both = [&](int k) {
+    const V sum = Sign > 0 ? V(A[k] + B[k]) : V(A[k] - B[k]);
+    return Sign > 0 && (!Stress || k % (Dim + 1) == 0) ? V(sum - pressure) : sum;
+  };
   for (int a = 0; a < Dim; ++a) {
     f[a] = both(Stress ? a * Dim : 0) * g[Stress ? 0 : a];
     if constexpr (Stress)
@@ -53,12 +58,14 @@ V along(const Tensor& d, const V (&x)[Dim]) {
 template <class V>
 [[gnu::always_inline]] inline V smooth_closing(V ours, V theirs, V along) {
   using T = kernel_detail::Scalar<V>;
-  constexpr T trust = T(0.3), guard = T(1e-30);
+  constexpr T trust = T(0.3), guard = sizeof(T) == sizeof(float) ? T(1e-15) : T(1e-60);
   ours = simd::min(ours, V{});
   theirs = simd::min(theirs, V{});
-  const V mean = T(2) * ours * theirs * simd::reciprocal(V(ours + theirs - guard)), rest = mean - along;
-  const V off = simd::max(rest, V(-rest)) * simd::reciprocal(V(trust * simd::max(along, V(-along)) + guard));
-  return mean * simd::max(simd::min(V(T(2) - off), V{} + T(1)), V{});
+  const V twice = T(-2) * ours * theirs, sum = guard - (ours + theirs);  // mean = twice / sum
+  const V trusted = trust * simd::magnitude(along) + guard;
+  const V quotient = simd::reciprocal(V(sum * trusted));  // one division for both
+  const V off = simd::magnitude(V(twice - along * sum)) * quotient;
+  return twice * trusted * quotient * simd::max(simd::min(V(T(2) - off), V{} + T(1)), V{});
 }
 
 /// Shares s_ij and s_ji of the weights of a pair of neighbours (PairPass::rates), by their expansions r and
@@ -66,19 +73,38 @@ template <class V>
 /// that.
 template <class V>
 struct WeightShares {
-  V own, other, mass;  ///< mass: 1 where weights are those of masses, 0 where those of volumes
+  V own, other;
 
   template <class T>
   WeightShares(T alike, V r_i, V c_i, T r_j, T c_j) {
     const V i_over_j = simd::rounded(V(r_j * c_i)), j_over_i = simd::rounded(V(r_i * c_j));  // of densities
-    mass = simd::max(simd::min(V((T(4) * alike - (i_over_j + j_over_i)) * (1 / (T(3) * alike))), V{} + T(1)), V{});
+    // 1 where weights are those of masses, 0 where those of volumes
+    const V mass =
+        simd::max(simd::min(V((T(4) * alike - (i_over_j + j_over_i)) * (1 / (T(3) * alike))), V{} + T(1)), V{});
     own = mass + (T(1) - mass) * i_over_j;
     other = mass + (T(1) - mass) * j_over_i;
   }
-  bool even() const { return !simd::any_less(mass, V{} + 1); }
 };
 
-/// The products x_a x_b, twice where a and b differ, in the order of symmetric tensors.
+/// Tells at once whether all lanes are so much alike in density with a partner that both shares are 1.
+template <class T, class V, class R>
+struct Alike {
+  T limit, most = 0;                ///< where x + 1/x reaches the limit, a little less
+  T expanded = 0, compressed = 0;  ///< the most of all lanes
+
+  Alike(double alike, V expansion, V compression) : limit(static_cast<T>(alike)) {
+    if (alike > 2) most = static_cast<T>(0.999 * 0.5 * (alike + std::sqrt(alike * alike - 4)));
+    for (int k = 0; k < simd::lanes<T>; ++k) {
+      expanded = std::max(expanded, expansion[k]);
+      compressed = std::max(compressed, compression[k]);
+    }
+  }
+  bool with(const T* j) const {
+    return j[R::expansion] * compressed < most && j[R::compression] * expanded < most;
+  }
+};
+
+/// The products x_a x_b in the order of symmetric tensors.
 template <class V, int Dim>
 struct Squares {
   V products[symmetric_size<Dim>];
@@ -86,14 +112,23 @@ struct Squares {
   explicit Squares(const V (&x)[Dim]) {
     for (int a = 0, k = Dim; a < Dim; ++a) {
       products[a] = x[a] * x[a];
-      for (int b = a + 1; b < Dim; ++b, ++k) products[k] = 2 * (x[a] * x[b]);
+      for (int b = a + 1; b < Dim; ++b, ++k) products[k] = x[a] * x[b];
     }
   }
-  /// x . e x. Products are rounded before the sum, so that it is the same number seen from either side of a pair.
-  template <class Tensor>
-  V along(const Tensor& e) const {
-    V sum = simd::rounded(V(e[0] * products[0]));
-    for (int k = 1; k < symmetric_size<Dim>; ++k) sum += simd::rounded(V(e[k] * products[k]));
+  /// x . e x for e with twice what is off its diagonal; the same number seen from either side of a pair.
+  V along(const V (&e)[symmetric_size<Dim>]) const {
+    return sum_of([&](int k) { return e[k]; });
+  }
+  template <class T>
+  V along(const T* e) const {
+    return sum_of([&](int k) { return simd::all<V>(e[k]); });
+  }
+
+ private:
+  template <class Component>
+  V sum_of(Component&& e) const {
+    V sum = e(0) * products[0];
+    for (int k = 1; k < symmetric_size<Dim>; ++k) sum = simd::fused(e(k), products[k], sum);
     return sum;
   }
 };
@@ -183,21 +218,22 @@ struct Touch {
   /// How far a pair of different pieces touches; 0 within a piece.
   template <class Partner>
   V weight(const Partner& p, V own) const {
-    return (T(1) - own) * simd::max(touching, V{} + p.touch[R::touching]);
+    return (T(1) - own) * simd::max(touching, simd::all<V>(p.touch[R::touching]));
   }
-  /// What i feels of j and j of i, by the impedances rho c of both, 2 in all: as where two waves meet, the softer one
-  /// decides what stress there is at the contact. A solid hardly notices the gas beside it, which feels it as a wall.
-  /// Times the share that makes the weights those of volumes.
+  /// What i feels of j and j of i, as far as they touch, by the impedances rho c of both, 2 in all: as where two waves
+  /// meet, the softer one decides what stress there is at the contact. A solid hardly notices the gas beside it, which
+  /// feels it as a wall. Times the share that makes the weights those of volumes.
   template <class Partner>
-  void shares(const Partner& p, V& own_share, V& other_share) const {
-    const V other = V{} + p.record[R::density] * p.record[R::sound_speed];
-    other_share = T(2) * impedance / (impedance + other) * (expansion * p.record[R::compression]);
-    own_share = T(2) * other / (impedance + other) * (p.record[R::expansion] * compression);
+  void shares(const Partner& p, V own, V& own_share, V& other_share) const {
+    const V other = simd::all<V>(p.record[R::density] * p.record[R::sound_speed]);
+    const V touched = weight(p, own), per_sum = T(2) / (impedance + other);
+    other_share = impedance * per_sum * (expansion * p.record[R::compression]) * touched;
+    own_share = other * per_sum * (p.record[R::expansion] * compression) * touched;
   }
   /// Factor of the viscosity: the mean sound speed in it is at most twice the lower one.
   template <class Partner>
   V softness(const Partner& p, V sound_speed) const {
-    const V other = V{} + p.record[R::sound_speed];
+    const V other = simd::all<V>(p.record[R::sound_speed]);
     return simd::min(V(T(4) * simd::min(sound_speed, other) / (sound_speed + other)), V{} + T(1));
   }
   /// What closes the gap between pieces, of v.x (`along`): sliding does not brake.
@@ -218,7 +254,7 @@ struct Touch {
     const V out = dot(slide, n) / n2, push = simd::max(V(-dot(force, n)), V{}) * (T(1) - own);
     for (int a = 0; a < Dim; ++a) slide[a] -= out * n[a];
     const V speed = simd::square_root(V(dot(slide, slide) + T(1e-20)));
-    const V softer = simd::min(impedance, V{} + p.record[R::density] * p.record[R::sound_speed]);
+    const V softer = simd::min(impedance, simd::all<V>(p.record[R::density] * p.record[R::sound_speed]));
     const V drag = simd::min(V(friction * push / simd::square_root(n2)), V(softer * speed * reach)) / speed;
     V work{};
     for (int a = 0; a < Dim; ++a) {
@@ -278,7 +314,7 @@ struct Members {
     if constexpr (Mixed) p.foreign = any_differs(piece, j[R::piece]);
     if constexpr (Kind.bonded) {
       separation(place, place_low, j, R::place, R::place_low, between);
-      const V same = piece == V{} + j[R::piece] ? V{} + T(1) : V{}, R2 = dot(between, between);
+      const V same = piece == simd::all<V>(j[R::piece]) ? V{} + T(1) : V{}, R2 = dot(between, between);
       const V limit = bond + j[R::bond], both = same * bond * j[R::bond];
       const V apart = R2 > limit * limit ? both : V{};  // of one piece, and strangers
       p.own = apart > T(0) ? V{} : same;
@@ -309,7 +345,7 @@ struct Members {
     if constexpr (Kind.bonded)
       return p.own;
     else
-      return piece == V{} + p.record[R::piece] ? V{} + T(1) : V{};
+      return piece == simd::all<V>(p.record[R::piece]) ? V{} + T(1) : V{};
   }
   /// Square of the stretch of bonds that are in use.
   template <class Partner>

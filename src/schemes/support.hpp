@@ -13,6 +13,12 @@ template <class S>
 constexpr S guard = sizeof(S) == sizeof(float) ? S(1e-30) : S(1e-200);
 }  // namespace support_detail
 
+/// Division is dear: two fractions can share one.
+template <class V>
+struct Fraction {
+  V over, under;
+};
+
 /// Isotropic smoothing length h (SPH).
 template <class V, int Dim, class K, class R>
 struct IsotropicSupport {
@@ -55,9 +61,9 @@ struct IsotropicSupport {
 
   /// Speed of approach in Monaghan's viscosity (1992): mu = h v.x / (r^2 + 0.01 h^2) <= 0, with h the mean of both;
   /// `closing` is v.x.
-  V approach(const Pair&, V r2, V closing, const S* j) const {
+  Fraction<V> approach(const Pair&, V r2, V closing, const S* j) const {
     const V tenth = h + j[R::h];
-    return S(10) * (tenth * simd::min(closing, V{}) / (r2 + tenth * tenth));
+    return {S(10) * tenth * simd::min(closing, V{}), r2 + tenth * tenth};
   }
 
   /// Kernel value and |dW/deta| at eta_i, both without norm.
@@ -126,10 +132,10 @@ struct TensorSupport {
   static constexpr double moment_scale = 1;
 
   /// Monaghan's mu with eta, the mean of both, in place of r/h: mu = (v.x/r) eta/(eta^2 + 0.01).
-  V approach(const Pair& p, V r2, V closing, const S*) const {
+  Fraction<V> approach(const Pair& p, V r2, V closing, const S*) const {
     const V eta = p.mean_eta;
-    return simd::min(closing, V{}) * simd::reciprocal_sqrt(V(r2 + support_detail::guard<S>)) * eta *
-           simd::reciprocal(V(eta * eta + S(0.01)));
+    return {simd::min(closing, V{}) * simd::reciprocal_sqrt(V(r2 + support_detail::guard<S>)) * eta,
+            eta * eta + S(0.01)};
   }
 
   void value(const V (&dx)[Dim], V, V& w, V& moment) const {

@@ -102,7 +102,8 @@ void damage(Simulation<Dim>& sim) {
     const Material& material = sim.materials[m];
     if (!material.solid()) continue;
     const bool crushes = material.porosity && material.porosity->crush_damage;
-    if (!material.damage && !crushes) continue;
+    const bool shears = material.breaks_in_shear();
+    if (!material.damage && !crushes && !shears) continue;
     const Range range = p.material_ranges()[m];
     parallel_for(range.begin, range.end, [&](std::size_t i) {
       if (driven(p, sim.scene, i)) {
@@ -117,9 +118,11 @@ void damage(Simulation<Dim>& sim) {
         sim.intact[i] = left_by(material, 1);
         return;
       }
-      const double pores =
-          crushes ? pore_damage(distension_of(p, material, i), material.porosity->initial_distension()) : 0;
-      double total = pores;
+      // Without a direction: crushed pores, and rock broken in shear.
+      const double crushed =
+          (crushes ? pore_damage(distension_of(p, material, i), material.porosity->initial_distension()) : 0) +
+          (shears ? p.column(Field::shear_damage)[i] : 0);
+      double total = crushed;
       if (material.tensor_damage())
         total += tensor_damage(p, material, i, sim.clock.dt);
       else if (material.damage)
@@ -127,8 +130,8 @@ void damage(Simulation<Dim>& sim) {
       // What is broken stays broken.
       broken = total = std::clamp(total, broken, 1.0);
       pressure = damaged_pressure(pressure, total);
-      // Cracks with a direction take the deviator away pair by pair; crushed pores have none.
-      sim.intact[i] = left_by(material, material.cuts_pairs() ? pores : total);
+      // Cracks with a direction take the deviator away pair by pair.
+      sim.intact[i] = left_by(material, material.cuts_pairs() ? crushed : total);
     });
   }
 }

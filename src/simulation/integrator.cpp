@@ -1,5 +1,7 @@
 #include "simulation/integrator.hpp"
 
+#include <algorithm>
+
 #include "base/parallel.hpp"
 
 namespace ejecta {
@@ -9,18 +11,16 @@ namespace {
 struct StateAndRate {
   Field state, rate;
 };
-/// All pairs but (position, velocity), which is advanced to second order by itself, and density, whose logarithm is.
-constexpr StateAndRate pairs[] = {{Field::velocity, Field::acceleration},
-                                  {Field::specific_energy, Field::heating},
+/// But for motion, which is advanced by itself, and density, whose logarithm is.
+constexpr StateAndRate pairs[] = {{Field::specific_energy, Field::heating},
                                   {Field::deviatoric_stress, Field::stress_rate}};
 
-/// Calls body(state column, rate column, previous rate column) for every component of every pair present.
+/// Calls body(state, rate, component) for every component of every pair present.
 template <int Dim, class Body>
 void for_pair_columns(Particles<Dim>& particles, Body&& body) {
   for (const auto& [state, rate] : pairs)
     if (particles.has(state) && particles.has(rate))
-      for (int k = 0; k < components(info(state).shape, Dim); ++k)
-        body(particles.column(state, k), particles.column(rate, k), particles.previous(rate, k));
+      for (int k = 0; k < components(info(state).shape, Dim); ++k) body(state, rate, k);
 }
 
 /// e^x to the fourth order of x (Pade), and positive for every x: whatever tears at it, no density falls below zero.
@@ -37,25 +37,35 @@ void for_blocks(std::size_t n, Body&& body) {
 template <int Dim>
 void predict(Particles<Dim>& particles, double dt, double previous_dt) {
   auto energy = particles.column(Field::specific_energy);
+  const double ahead = previous_dt > 0 ? std::min(dt / previous_dt, 1.0) : 0;
   for_blocks(particles.size(), [&](std::size_t begin, std::size_t end) {
     // The opening kick of length dt/2 starts from the corrected velocity, v* + previous_dt/2 (a - a_previous), so
     // vbar - v* = dt/4 a + previous_dt/2 (a - a_previous).
     for (int k = 0; k < Dim; ++k) {
       const auto a = particles.column(Field::acceleration, k), before = particles.previous(Field::acceleration, k);
-      const auto v = particles.column(Field::velocity, k);
-      auto x = particles.column(Field::position, k);
+      auto v = particles.column(Field::velocity, k), x = particles.column(Field::position, k);
       for (std::size_t i = begin; i < end; ++i) {
         energy[i] -= 0.5 * dt * a[i] * (0.25 * dt * a[i] + 0.5 * previous_dt * (a[i] - before[i]));
         x[i] += dt * (v[i] + 0.5 * dt * a[i]);
+        v[i] += dt * a[i];
       }
     }
-    for_pair_columns(particles, [&](auto y, auto rate, auto) {
-      for (std::size_t i = begin; i < end; ++i) y[i] += dt * rate[i];
+    // Calls advance(i, change) with the change of particle i in the step.
+    auto extrapolate = [&](Field rate, int k, auto&& advance) {
+      const auto now = particles.column(rate, k), before = particles.previous(rate, k);
+      auto then = particles.expected(rate, k);
+      for (std::size_t i = begin; i < end; ++i) {
+        then[i] = now[i] + ahead * (now[i] - before[i]);
+        advance(i, 0.5 * dt * (now[i] + then[i]));
+      }
+    };
+    for_pair_columns(particles, [&](Field state, Field rate, int k) {
+      auto y = particles.column(state, k);
+      extrapolate(rate, k, [&](std::size_t i, double change) { y[i] += change; });
     });
     if (!particles.has(Field::compression_rate)) return;
-    const auto rate = particles.column(Field::compression_rate);
     auto density = particles.column(Field::density);
-    for (std::size_t i = begin; i < end; ++i) density[i] *= growth(dt * rate[i]);
+    extrapolate(Field::compression_rate, 0, [&](std::size_t i, double change) { density[i] *= growth(change); });
   });
   particles.swap_rates();
 }
@@ -67,16 +77,21 @@ void correct(Particles<Dim>& particles, double dt) {
     // The closing kick of length dt/2 ends at the corrected velocity: vbar - v* = dt/4 a_new - dt/2 a_old.
     for (int k = 0; k < Dim; ++k) {
       const auto a = particles.column(Field::acceleration, k), before = particles.previous(Field::acceleration, k);
-      for (std::size_t i = begin; i < end; ++i)
+      auto v = particles.column(Field::velocity, k);
+      for (std::size_t i = begin; i < end; ++i) {
         energy[i] -= 0.5 * dt * a[i] * (0.25 * dt * a[i] - 0.5 * dt * before[i]);
+        v[i] += 0.5 * dt * (a[i] - before[i]);
+      }
     }
-    for_pair_columns(particles, [&](auto y, auto now, auto before) {
-      for (std::size_t i = begin; i < end; ++i) y[i] += 0.5 * dt * (now[i] - before[i]);
+    for_pair_columns(particles, [&](Field state, Field rate, int k) {
+      auto y = particles.column(state, k);
+      const auto now = particles.column(rate, k), expected = particles.expected(rate, k);
+      for (std::size_t i = begin; i < end; ++i) y[i] += 0.5 * dt * (now[i] - expected[i]);
     });
     if (!particles.has(Field::compression_rate)) return;
-    const auto now = particles.column(Field::compression_rate), before = particles.previous(Field::compression_rate);
+    const auto now = particles.column(Field::compression_rate), expected = particles.expected(Field::compression_rate);
     auto density = particles.column(Field::density);
-    for (std::size_t i = begin; i < end; ++i) density[i] *= growth(0.5 * dt * (now[i] - before[i]));
+    for (std::size_t i = begin; i < end; ++i) density[i] *= growth(0.5 * dt * (now[i] - expected[i]));
   });
 }
 

@@ -120,6 +120,11 @@ void strength(Simulation<Dim>& sim) {
             if (r.scale == 1) return;
             for (int k = 0; k < deviator_size<Dim>; ++k) p.column(Field::deviatoric_stress, k)[i] *= r.scale;
             p.column(Field::plastic_strain)[i] += r.plastic_strain;
+            if constexpr (std::is_same_v<std::decay_t<decltype(model)>, Collins>)
+              if (model.breaks_in_shear()) {
+                double& broken = p.column(Field::shear_damage)[i];
+                broken = std::min(broken + r.plastic_strain / model.failure_strain(state.pressure), 1.0);
+              }
           });
         },
         *material.strength, material.eos);

@@ -58,10 +58,10 @@ void mirror_votes(Simulation<Dim>& sim) {
   }
 }
 
-using V = simd::Double8;
-constexpr int lanes = 8;
+using V = simd::Doubles;
+constexpr int lanes = simd::lanes<double>;
 
-/// Up to 8 particles of a cluster, one in each lane; lanes beyond its end repeat the last one.
+/// Particles of a cluster, one in each lane; lanes beyond its end repeat the last one.
 template <int Dim>
 struct Members {
   std::size_t begin;
@@ -106,7 +106,7 @@ void collect_votes(Simulation<Dim>& sim, double reach) {
           const auto& place = scratch.places[j];
           V dx[Dim];
           for (int a = 0; a < Dim; ++a) dx[a] = place.x[a] - members.x[a];
-          shells.add(dx, members.material == V{} + place.material ? V{} : infinity);
+          shells.add(dx, members.material == simd::all<V>(place.material) ? V{} : infinity);
         }
         members.for_each([&](int k, std::size_t i) {
           scratch.votes[i] = shells.vote(k, reach);
@@ -138,7 +138,7 @@ Round apply_votes(Simulation<Dim>& sim, bool sum_neighbours) {
         const V eta2 = quadratic_form<Dim>(metric, dx, image);
         if (!simd::any_less(eta2, V{} + Kernel::support * Kernel::support)) continue;
         const V reciprocal = simd::reciprocal_sqrt(V(eta2 + 1e-200)), eta = eta2 * reciprocal;
-        mean.add(members.material == V{} + place.material ? Kernel::value(eta) : V{}, scratch.votes[j]);
+        mean.add(members.material == simd::all<V>(place.material) ? Kernel::value(eta) : V{}, scratch.votes[j]);
         if (sum_neighbours) sum -= eta * Kernel::slope_over_q(eta, reciprocal);
       }
       members.for_each([&](int k, std::size_t i) {

@@ -26,8 +26,9 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
   const bool yields = any([](const Material& m) { return m.solid() && m.strength; });
   const bool porous = any([](const Material& m) { return m.porosity.has_value(); });
   const bool variable_shear = any([](const Material& m) { return m.variable_shear() != nullptr; });
-  const bool breaks = any(
-      [](const Material& m) { return m.damage.has_value() || (m.porosity && m.porosity->crush_damage && m.solid()); });
+  const bool shears = any([](const Material& m) { return m.breaks_in_shear(); });
+  const bool crushes = any([](const Material& m) { return m.porosity && m.porosity->crush_damage && m.solid(); });
+  const bool breaks = shears || crushes || any([](const Material& m) { return m.damage.has_value(); });
   const bool grady_kipp = any([](const Material& m) { return m.damage.has_value(); });
   const bool scalar_cracks = any([](const Material& m) { return m.damage && !m.tensor_damage(); });
   const bool tensor_cracks = any([](const Material& m) { return m.tensor_damage(); });
@@ -71,14 +72,16 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
     add("strength",
         extended(extended({deviatoric_stress, pressure, specific_energy}, breaks, {Field::damage}), variable_shear,
                  {shear_modulus}),
-        {deviatoric_stress, plastic_strain}, strength<Dim>);
+        extended({deviatoric_stress, plastic_strain}, shears, {shear_damage}), strength<Dim>);
   if (bonded) add("bonds", extended({stretch, density}, yields, {plastic_strain}), {bond}, bonds<Dim>);
   if (breaks)
     add("damage",
-        extended(extended(extended(extended({pressure, deviatoric_stress, density, mass}, grady_kipp, {flaw_strain}),
-                                   dealt, {flaw_exponent, flaw_count, smoothing_length}),
-                          scalar_cracks, {crack, local_strain}),
-                 tensor_cracks, {damage_tensor, strain_history, velocity_gradient}),
+        extended(
+            extended(extended(extended(extended({pressure, deviatoric_stress, density, mass}, grady_kipp, {flaw_strain}),
+                                       dealt, {flaw_exponent, flaw_count, smoothing_length}),
+                              scalar_cracks, {crack, local_strain}),
+                     tensor_cracks, {damage_tensor, strain_history, velocity_gradient}),
+            shears, {shear_damage}),
         extended(extended({Field::damage, pressure}, scalar_cracks, {crack, local_strain}), tensor_cracks,
                  {damage_tensor, strain_history}),
         ejecta::damage<Dim>);

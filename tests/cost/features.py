@@ -14,8 +14,8 @@ ALGORITHM = ["neighbours", "density", "equation of state", "strength", "bonds", 
 # Components in three dimensions of what is no plain number.
 COMPONENTS = {"position": 3, "velocity": 3, "acceleration": 3, "velocity_gradient": 9, "deviatoric_stress": 5,
               "stress_rate": 5, "start_position": 3}
-# Rates are kept twice: the integrator needs those of the step before.
-RATES = {"acceleration", "heating", "compression_rate", "stress_rate"}
+# Rates are kept three times: the integrator needs those of the step before, and but for motion what it expected of them.
+COPIES = {"acceleration": 2, "heating": 3, "compression_rate": 3, "stress_rate": 3}
 
 GAS_COLUMNS = """position velocity acceleration mass density specific_energy heating pressure sound_speed
 smoothing_length neighbour_sum approach_speed""".split()
@@ -23,7 +23,7 @@ smoothing_length neighbour_sum approach_speed""".split()
 
 def bytes_of(columns):
     """Memory of one particle in these columns."""
-    return sum(8 * COMPONENTS.get(c, 1) * (2 if c in RATES else 1) for c in columns)
+    return sum(8 * COMPONENTS.get(c, 1) * COPIES.get(c, 1) for c in columns)
 
 
 @dataclass
@@ -63,6 +63,8 @@ def material(section, **values):
 
 
 VON_MISES = material("strength", model="von_mises", yield_stress="100 MPa")
+COLLINS = material("strength", model="collins", cohesion="90 MPa", friction=2, limit="1.5 GPa",
+                   damaged_cohesion="0 Pa", damaged_friction=0.8)
 GRADY_KIPP = material("damage", model="grady_kipp", weibull_m=9.5, weibull_k="1.6e44 1/m^3")
 PORES = material("porosity", model="two_power", initial_distension=3.3242857142857143, elastic_pressure="1 MPa",
                  transition_pressure="68 MPa", solid_pressure="213 MPa", reference_distension=4.64,
@@ -97,6 +99,11 @@ porous = Case("elastic, pores", elastic, {**PORES, **material("porosity", crush_
               other_bytes=-BONDED)
 crushed = Case("elastic, pores, damage by crushing", porous, material("porosity", crush_damage="true"),
                adds_stages=("damage",), adds_columns=("damage",), other_bytes=INTACT)
+rock = Case("elastic, rock", elastic, COLLINS, adds_stages=("strength",), drops_stages=("bonds",),
+            adds_columns=("plastic_strain",), drops_columns=BONDS, other_bytes=-BONDED)
+sheared = Case("elastic, rock that breaks in shear", rock,
+               material("strength", brittle_ductile="1.2 GPa", brittle_plastic="2.4 GPa"), adds_stages=("damage",),
+               adds_columns=("damage", "shear_damage"), other_bytes=INTACT)
 pumice = Case("elastic, strength, damage, pores", brittle, PORES, adds_columns=("distension", "stress_factor"))
 
 CASES = [
@@ -119,6 +126,8 @@ CASES = [
     brittle,
     porous,
     crushed,
+    rock,
+    sheared,
     pumice,
     Case("pumice, balsara", pumice, {"numerics.balsara": "true"}, adds_columns=("viscosity_factor",)),
     Case("pumice, no switches", pumice, {"numerics.shock_switch": "false"},

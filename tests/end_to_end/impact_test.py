@@ -30,7 +30,7 @@ class Impact(unittest.TestCase):
             self.assertEqual(self.summary[key], value, key)
         self.assertAlmostEqual(self.summary["time_s"], 30e-6, delta=1e-15)
         # Columns, records and lists, with those of contact and of the surroundings (stages_test.cpp has the parts).
-        self.assertLess(self.summary["bytes_per_particle"], 1300)
+        self.assertLess(self.summary["bytes_per_particle"], 1500)  # with AVX2; lists of wider clusters are shorter
         self.assertTrue(50 < self.summary["neighbours_mean"] < 90)
         self.assertEqual(self.summary["insitu_bytes_written"],
                          sum(file.stat().st_size for file in (self.out / "images").iterdir()))

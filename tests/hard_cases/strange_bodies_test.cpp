@@ -125,7 +125,7 @@ TEST(StrangeBodies, ParticlesAtOnePlaceMoveAsOne) {
     p.set_vector(Field::position, place_of(p, one),
                  p.vector(Field::position, place_of(p, other)) + Vec<3>(distance, 0, 0));
     begin_from_here(*sim);
-    const Outcome outcome = follow(*sim, 100);
+    const Outcome outcome = follow(*sim, 60);
     EXPECT_EQ(outcome.error, "");
     EXPECT_LT(std::abs(outcome.conservation.energy), 1e-13);
     const Vec<3> apart = p.vector(Field::position, place_of(p, one)) - p.vector(Field::position, place_of(p, other));

@@ -8,8 +8,8 @@
 namespace ejecta {
 namespace {
 
-using simd::Double8;
-using simd::Float16;
+using simd::Doubles;
+using simd::Floats;
 
 /// Positive numbers spread evenly over decades.
 template <class V, class T>
@@ -40,47 +40,76 @@ double inverse(double a) { return 1 / a; }
 double inverse_root(double a) { return 1 / std::sqrt(a); }
 
 TEST(Simd, ReciprocalIsGoodToAFewUnitsInTheLastPlace) {
-  EXPECT_LT((worst_error<Double8, double>(
-                -100, 100, [](Double8 a) { return simd::reciprocal(a); }, inverse)),
+  EXPECT_LT((worst_error<Doubles, double>(
+                -100, 100, [](Doubles a) { return simd::reciprocal(a); }, inverse)),
             few_units);
-  EXPECT_LT((worst_error<Float16, float>(
-                -30, 30, [](Float16 a) { return simd::reciprocal(a); }, inverse)),
+  EXPECT_LT((worst_error<Floats, float>(
+                -30, 30, [](Floats a) { return simd::reciprocal(a); }, inverse)),
             few_units);
 }
 
 TEST(Simd, ReciprocalRootIsGoodToAFewUnitsInTheLastPlace) {
   // The pair loop hands in squared distances with a guard of 1e-200 (1e-30 in single precision).
-  EXPECT_LT((worst_error<Double8, double>(
-                -200, 200, [](Double8 a) { return simd::reciprocal_sqrt(a); }, inverse_root)),
+  EXPECT_LT((worst_error<Doubles, double>(
+                -200, 200, [](Doubles a) { return simd::reciprocal_sqrt(a); }, inverse_root)),
             few_units);
-  EXPECT_LT((worst_error<Float16, float>(
-                -30, 30, [](Float16 a) { return simd::reciprocal_sqrt(a); }, inverse_root)),
+  EXPECT_LT((worst_error<Floats, float>(
+                -30, 30, [](Floats a) { return simd::reciprocal_sqrt(a); }, inverse_root)),
             few_units);
 }
 
-TEST(Simd, MinAndMaxWorkLaneByLane) {
-  const Double8 a{1, -2, 3, -4, 5, -6, 7, -8}, b = -a;
-  const Float16 x{1, -2, 3, -4, 5, -6, 7, -8, 9, -10, 11, -12, 13, -14, 15, -16}, y = -x;
-  for (int k = 0; k < 8; ++k) {
+TEST(Simd, RootIsGoodToAFewUnitsInTheLastPlace) {
+  const auto root = [](double a) { return std::sqrt(a); };
+  EXPECT_LT((worst_error<Doubles, double>(
+                -200, 200, [](Doubles a) { return simd::square_root(a); }, root)),
+            few_units);
+  EXPECT_LT((worst_error<Floats, float>(
+                -30, 30, [](Floats a) { return simd::square_root(a); }, root)),
+            few_units);
+  EXPECT_EQ(simd::square_root(Doubles{})[0], 0);
+  EXPECT_EQ(simd::square_root(Floats{})[0], 0);
+}
+
+template <class V, int lanes>
+void expect_min_and_max() {
+  V a{};
+  for (int k = 0; k < lanes; ++k) a[k] = k % 2 ? -k - 1 : k + 1;
+  const V b = -a;
+  for (int k = 0; k < lanes; ++k) {
     EXPECT_EQ(simd::max(a, b)[k], k + 1);
     EXPECT_EQ(simd::min(a, b)[k], -k - 1);
+    EXPECT_EQ(simd::magnitude(a)[k], k + 1);
+    EXPECT_EQ(simd::fused(a, b, V{} + 1)[k], 1 - (k + 1) * (k + 1));
   }
-  for (int k = 0; k < 16; ++k) {
-    EXPECT_EQ(simd::max(x, y)[k], k + 1);
-    EXPECT_EQ(simd::min(x, y)[k], -k - 1);
+}
+
+TEST(Simd, OperationsWorkLaneByLane) {
+  expect_min_and_max<Doubles, simd::lanes<double>>();
+  expect_min_and_max<Floats, simd::lanes<float>>();
+}
+
+TEST(Simd, ANumberFillsAllLanesAndKeepsItsSign) {
+  for (const double value : {3.5, 0.0, -0.0}) {
+    const Doubles all = simd::all<Doubles>(value);
+    for (int k = 0; k < simd::lanes<double>; ++k) {
+      EXPECT_EQ(all[k], value);
+      EXPECT_EQ(std::signbit(all[k]), std::signbit(value));
+    }
   }
 }
 
 TEST(Simd, AnyLessSeesEveryLane) {
-  const Double8 zero{};
+  const Doubles zero{};
   EXPECT_FALSE(simd::any_less(zero, zero));
-  for (int k = 0; k < 8; ++k) {
-    Double8 a = zero;
+  for (int k = 0; k < simd::lanes<double>; ++k) {
+    Doubles a = zero;
     a[k] = -1;
     EXPECT_TRUE(simd::any_less(a, zero)) << k;
     EXPECT_FALSE(simd::any_less(zero, a)) << k;
     a[k] = std::numeric_limits<double>::quiet_NaN();
     EXPECT_FALSE(simd::any_less(a, zero)) << k;
+    a[k] = -1;
+    EXPECT_EQ(simd::lanes_less(a, zero), 1u << k);
   }
 }
 
@@ -89,32 +118,32 @@ TEST(Simd, WideSumAddsInDoublePrecision) {
   std::uniform_real_distribution<float> uniform(-1, 1);
   simd::WideSum<float> sum;
   simd::WideSum<double> sum_of_doubles;
-  double expected[16] = {};
+  double expected[simd::lanes<float>] = {};
   for (int n = 0; n < 1000; ++n) {
-    Float16 value{};
-    Double8 first{};
+    Floats value{};
+    Doubles first{};
     const float weight = uniform(random);
-    for (int k = 0; k < 16; ++k) {
+    for (int k = 0; k < simd::lanes<float>; ++k) {
       value[k] = uniform(random);
-      if (k < 8) first[k] = static_cast<double>(value[k]);
+      if (k < simd::lanes<double>) first[k] = static_cast<double>(value[k]);
       expected[k] += static_cast<double>(weight) * static_cast<double>(value[k]);
     }
     sum.add(static_cast<double>(weight), value);
     sum_of_doubles.add(static_cast<double>(weight), first);
   }
-  for (int k = 0; k < 16; ++k) EXPECT_NEAR(sum.lane(k), expected[k], 1e-13) << k;
-  for (int k = 0; k < 8; ++k) EXPECT_NEAR(sum_of_doubles.lane(k), expected[k], 1e-13) << k;
+  for (int k = 0; k < simd::lanes<float>; ++k) EXPECT_NEAR(sum.lane(k), expected[k], 1e-13) << k;
+  for (int k = 0; k < simd::lanes<double>; ++k) EXPECT_NEAR(sum_of_doubles.lane(k), expected[k], 1e-13) << k;
 }
 
 TEST(Simd, RoundedProductsMakeSumsCommute) {
   // Without it the compiler may fuse one of the two products into the sum, and a different one in each expression.
   std::mt19937_64 random(5);
   for (int trial = 0; trial < 1000; ++trial) {
-    const auto next = [&] { return log_uniform<Double8, double>(random, -2, 2); };
-    const Double8 a = next(), b = next(), c = next(), d = next();
-    const Double8 one = simd::rounded(Double8(a * b)) + simd::rounded(Double8(c * d));
-    const Double8 other = simd::rounded(Double8(c * d)) + simd::rounded(Double8(a * b));
-    for (int k = 0; k < 8; ++k) ASSERT_EQ(one[k], other[k]);
+    const auto next = [&] { return log_uniform<Doubles, double>(random, -2, 2); };
+    const Doubles a = next(), b = next(), c = next(), d = next();
+    const Doubles one = simd::rounded(Doubles(a * b)) + simd::rounded(Doubles(c * d));
+    const Doubles other = simd::rounded(Doubles(c * d)) + simd::rounded(Doubles(a * b));
+    for (int k = 0; k < simd::lanes<double>; ++k) ASSERT_EQ(one[k], other[k]);
   }
 }
 

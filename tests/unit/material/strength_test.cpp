@@ -55,6 +55,17 @@ TEST(Strength, CollinsBlendsIntactAndBrokenRock) {
   EXPECT_EQ(rock.intact_fraction(1), 1);
 }
 
+TEST(Strength, CollinsRockBreaksByStrainTheLessTheLowerThePressure) {
+  const Collins rock{{90e6, 2.0, 1.5e9}, 0, 0.8, 1.2e9, 2.4e9};
+  EXPECT_DOUBLE_EQ(rock.failure_strain(-1e9), 0.01);
+  EXPECT_DOUBLE_EQ(rock.failure_strain(0.6e9), 0.03);
+  EXPECT_DOUBLE_EQ(rock.failure_strain(1.2e9), 0.05);
+  EXPECT_DOUBLE_EQ(rock.failure_strain(1.8e9), 0.075);
+  EXPECT_DOUBLE_EQ(rock.failure_strain(3e9), 1);
+  EXPECT_TRUE(rock.breaks_in_shear());
+  EXPECT_FALSE((Collins{{90e6, 2.0, 1.5e9}, 0, 0.8}.breaks_in_shear()));
+}
+
 TEST(Strength, MeltSoftens) {
   EXPECT_DOUBLE_EQ(melt_factor(0.85e6, 3.4e6), 0.75);
   EXPECT_EQ(melt_factor(-1e3, 3.4e6), 1);

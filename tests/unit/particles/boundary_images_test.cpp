@@ -71,13 +71,14 @@ TEST(BoundaryImages, LeaversOfAPeriodicBoxComeBackIn) {
 TEST(BoundaryImages, WhatCrossedAReflectingFaceComesBackAsItsMirrorImage) {
   const Boundary box{{BoundaryKind::open, BoundaryKind::reflecting, BoundaryKind::open}, {0, 0, 0}, {1, 1, 1}};
   Particles<3> p;
-  p.allocate(2, std::array{Field::deviatoric_stress, Field::damage_tensor, Field::coupled_gradient});
+  p.allocate(2, std::array{Field::deviatoric_stress, Field::stress_rate, Field::damage_tensor, Field::coupled_gradient});
   p.set_vector(Field::position, 0, Vec<3>(-0.25, -0.25, 0.5));
   p.set_vector(Field::position, 1, Vec<3>(0.5, 1.25, 0.5));
   for (std::size_t i = 0; i < 2; ++i) {
     p.set_vector(Field::velocity, i, Vec<3>(1, 2, 3));
     for (int a = 0; a < 3; ++a) p.previous(Field::acceleration, a)[i] = 1 + a;
     for (int k = 0; k < 5; ++k) p.column(Field::deviatoric_stress, k)[i] = 1 + k;  // xx, yy, xy, xz, yz
+    for (int k = 0; k < 5; ++k) p.expected(Field::stress_rate, k)[i] = 1 + k;
     for (int k = 0; k < 6; ++k) p.column(Field::damage_tensor, k)[i] = 1 + k;      // xx, yy, zz, xy, xz, yz
     for (int k = 0; k < 9; ++k) p.column(Field::coupled_gradient, k)[i] = 1 + k;
   }
@@ -88,8 +89,10 @@ TEST(BoundaryImages, WhatCrossedAReflectingFaceComesBackAsItsMirrorImage) {
     EXPECT_EQ(p.vector(Field::velocity, i), Vec<3>(1, -2, 3));
     EXPECT_EQ(p.previous(Field::acceleration, 1)[i], -2);
     const std::array<double, 5> mirrored{1, 2, -3, 4, -5};
-    for (int k = 0; k < 5; ++k)
+    for (int k = 0; k < 5; ++k) {
       EXPECT_EQ(p.column(Field::deviatoric_stress, k)[i], mirrored[static_cast<std::size_t>(k)]);
+      EXPECT_EQ(p.expected(Field::stress_rate, k)[i], mirrored[static_cast<std::size_t>(k)]);
+    }
     Mat<3> tensor, gradient;
     tensor << 1, -4, 5, -4, 2, -6, 5, -6, 3;
     gradient << 1, -2, 3, -4, 5, -6, 7, -8, 9;

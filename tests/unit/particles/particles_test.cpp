@@ -36,6 +36,7 @@ TEST(Particles, HaveTheFieldsAskedForAndTheBasicFour) {
   EXPECT_FALSE(p.has(Field::damage));
   EXPECT_EQ(p.column(Field::position, 2).size(), 100u);
   EXPECT_EQ(p.previous(Field::compression_rate).size(), 100u);
+  EXPECT_EQ(p.expected(Field::compression_rate).size(), 100u);
 }
 
 TEST(Particles, CostTheBytesOfTheirColumnsAlone) {
@@ -72,6 +73,7 @@ TEST(Particles, ReorderMovesEveryColumnAndLabel) {
     p.set_vector(Field::position, i, Vec<2>(value, 10 + value));
     p.column(Field::compression_rate)[i] = 20 + value;
     p.previous(Field::compression_rate)[i] = 30 + value;
+    p.expected(Field::compression_rate)[i] = 35 + value;
     p.label(Label::body)[i] = 40 + static_cast<int>(i);
   }
   const std::array<std::uint32_t, 3> order{2, 0, 1};
@@ -81,6 +83,7 @@ TEST(Particles, ReorderMovesEveryColumnAndLabel) {
     EXPECT_EQ(p.vector(Field::position, i), Vec<2>(value, 10 + value));
     EXPECT_EQ(p.column(Field::compression_rate)[i], 20 + value);
     EXPECT_EQ(p.previous(Field::compression_rate)[i], 30 + value);
+    EXPECT_EQ(p.expected(Field::compression_rate)[i], 35 + value);
     EXPECT_EQ(p.label(Label::body)[i], 40 + static_cast<int>(order[i]));
   }
 }

@@ -61,18 +61,18 @@ TYPED_TEST(KernelTest, IsExactlyZeroAtAndBeyondTheSupport) {
 TYPED_TEST(KernelTest, LanesAgreeWithNumbers) {
   using K = TypeParam;
   for (double q0 = 0; q0 < 1.2 * K::support; q0 += 0.1) {
-    simd::Double8 q{};
-    simd::Float16 qf{};
-    for (int k = 0; k < 8; ++k) q[k] = q0 + 0.0125 * (k + 0.5);
-    for (int k = 0; k < 16; ++k) qf[k] = static_cast<float>(q0 + 0.00625 * (k + 0.5));
-    const simd::Double8 value = K::value(q), rate = K::slope_over_q(q, 1.0 / q);
-    const simd::Float16 value_f = K::value(qf), rate_f = K::slope_over_q(qf, 1.0f / qf);
+    simd::Doubles q{};
+    simd::Floats qf{};
+    for (int k = 0; k < simd::lanes<double>; ++k) q[k] = q0 + 0.0125 * (k + 0.5);
+    for (int k = 0; k < simd::lanes<float>; ++k) qf[k] = static_cast<float>(q0 + 0.00625 * (k + 0.5));
+    const simd::Doubles value = K::value(q), rate = K::slope_over_q(q, 1.0 / q);
+    const simd::Floats value_f = K::value(qf), rate_f = K::slope_over_q(qf, 1.0f / qf);
     const double scale = K::value(0.0);
-    for (int k = 0; k < 8; ++k) {
+    for (int k = 0; k < simd::lanes<double>; ++k) {
       EXPECT_NEAR(value[k], K::value(q[k]), 1e-15 * scale);
       EXPECT_NEAR(rate[k], K::slope_over_q(q[k], 1 / q[k]), 1e-14 * scale / q[k]);
     }
-    for (int k = 0; k < 16; ++k) {
+    for (int k = 0; k < simd::lanes<float>; ++k) {
       const double exact_q = static_cast<double>(qf[k]);
       EXPECT_NEAR(value_f[k], K::value(exact_q), 2e-6 * scale);
       EXPECT_NEAR(rate_f[k], K::slope_over_q(exact_q, 1 / exact_q), 5e-6 * scale / exact_q);

@@ -146,7 +146,7 @@ double error_of_continuity(double alike) {
     for (std::size_t i = 0; i < q.size(); ++i)
       q.set_vector(Field::position, i, p.vector(Field::position, i) + dt * p.vector(Field::velocity, i));
     PairLists<3> lists;
-    lists.build(q, {kernel_support(settings.kernel), 8, 0, {}});
+    lists.build(q, {kernel_support(settings.kernel), cluster_size(settings.precision), 0, {}});
     make_pair_pass<3>(settings)->density(q, lists);
     return std::vector(q.column(Field::density).begin(), q.column(Field::density).end());
   };

@@ -106,7 +106,7 @@ TEST(TensorPass, DensityIsTheSumOverTheMassesInTheEllipsoid) {
   auto p = tensor_matter<3>(200, 44, false, false);
   const auto settings = tensor_settings(Kernel::wendland_c2, Precision::double_precision, false, false);
   PairLists<3> lists;
-  lists.build(p, {2, 8, 0, {}});
+  lists.build(p, {2, cluster_size(settings.precision), 0, {}});
   make_pair_pass<3>(settings)->density(p, lists);
   // det(H) is taken from the smoothing length, to which the ellipsoids belong.
   const Reference<3> reference(p, settings);
@@ -119,7 +119,7 @@ TEST(TensorPass, EveryThreadCountGivesTheSameBits) {
   std::vector<Particles<2>> results;
   for_thread_counts([&](int) {
     auto p = tensor_matter<2>(2000, 45, true, true);
-    sort_in_space(p, 16);
+    sort_in_space(p, cluster_size(settings.precision));
     run_rates(p, settings);
     results.push_back(std::move(p));
   });

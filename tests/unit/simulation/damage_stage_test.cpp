@@ -188,7 +188,7 @@ TEST(TensorDamageStage, ScalarAndTensorDamageGoTogether) {
       EXPECT_EQ(p.column(Field::crack)[i], 0);
       EXPECT_GE(p.column(Field::damage)[i], std::min(largest, 1.0) - 1e-12);
     } else {
-      scalar = std::max(scalar, p.column(Field::crack)[i]);
+      scalar = std::max(scalar, p.column(Field::damage)[i]);  // by cracks and by shear
       EXPECT_EQ(largest, 0);
     }
   }

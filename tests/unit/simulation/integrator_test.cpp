@@ -76,6 +76,34 @@ TEST(Integrator, IsOfSecondOrderWithEqualAndUnequalSteps) {
   }
 }
 
+/// Elastic waves: the stress is driven by the motion and the motion by the stress, with angular frequency 1.
+void wave(Particles<2>& p) {
+  p.column(Field::acceleration)[0] = -p.column(Field::deviatoric_stress)[0];
+  p.column(Field::stress_rate)[0] = p.column(Field::velocity)[0];
+}
+
+TEST(Integrator, ElasticWavesFadeSlowlyAndNeverGrow) {
+  for (const double ratio : {1.0, 1.5}) {  // of neighbouring steps
+    for (const double w : {0.1, 0.2, 0.4, 0.7}) {
+      auto p = random_cloud<2>(1, 1, 1, 1, std::vector<Field>{Field::specific_energy, Field::heating,
+                                                              Field::deviatoric_stress, Field::stress_rate});
+      p.column(Field::velocity)[0] = 1;
+      begin(p, wave);
+      double previous_dt = 0, most = 0;
+      constexpr int steps = 4000;
+      for (int k = 0; k < steps; ++k) {
+        advance(p, wave, k % 2 == 0 ? w : w / ratio, previous_dt);
+        const double amplitude = std::hypot(p.column(Field::velocity)[0], p.column(Field::deviatoric_stress)[0]);
+        if (k >= steps / 2) most = std::max(most, amplitude);
+      }
+      // At most a step and the first ones, which have none before them, can raise it.
+      EXPECT_LT(most, 1) << "w dt " << w << ", ratio " << ratio;
+      if (ratio == 1.0 && w <= 0.2)
+        EXPECT_NEAR(std::log(most) / (-0.125 * std::pow(w, 4) * steps / 2), 1, 0.2) << "w dt " << w;
+    }
+  }
+}
+
 TEST(Integrator, ConservesTotalEnergyWhateverTheStepsAndForces) {
   constexpr std::size_t n = 40;
   auto p = random_cloud<3>(n, 2, 1, 1, fluid);

@@ -127,6 +127,33 @@ TEST(DamageStage, CracksGrowInTensionOnlyAndTakeTensionAway) {
   EXPECT_EQ(probe.sim->intact[0], 0);
 }
 
+TEST(DamageStage, PlasticStrainBreaksRock) {
+  Probe probe("basalt");
+  const Collins& rock = std::get<Collins>(*probe.material().strength);
+  const double shear = probe.material().elastic->shear_modulus, pressure = 0.5e9;
+  const auto strain_by = [&](double plastic) {  // pure shear
+    const double yield = rock.yield({pressure, probe.at(Field::damage)});
+    probe.at(Field::pressure) = pressure;
+    probe.at(Field::deviatoric_stress, 2) = (yield + 3 * shear * plastic) / std::sqrt(3.0);
+    strength(*probe.sim);
+    damage(*probe.sim);
+  };
+  const double enough = rock.failure_strain(pressure);
+  strain_by(0.25 * enough);
+  EXPECT_NEAR(probe.at(Field::damage), 0.25, 1e-9);
+  strain_by(0.25 * enough);
+  EXPECT_NEAR(probe.at(Field::damage), 0.5, 1e-9);
+  EXPECT_EQ(probe.at(Field::pressure), pressure) << "broken matter bears pressure";
+  strain_by(2 * enough);
+  EXPECT_EQ(probe.at(Field::damage), 1);
+  probe.at(Field::pressure) = -1e6;
+  damage(*probe.sim);
+  EXPECT_EQ(probe.at(Field::pressure), 0) << "and no tension";
+
+  Probe spared("basalt_von_mises");
+  EXPECT_FALSE(spared.p.has(Field::shear_damage));
+}
+
 TEST(DamageStage, CrushedPoresAreDamageToo) {
   Probe probe("pumice");
   probe.at(Field::distension) = 1;
