@@ -37,7 +37,7 @@ void for_blocks(std::size_t n, Body&& body) {
 template <int Dim>
 void predict(Particles<Dim>& particles, double dt, double previous_dt) {
   auto energy = particles.column(Field::specific_energy);
-  const double ahead = previous_dt > 0 ? std::min(dt / previous_dt, 1.0) : 0;
+  const double ahead = previous_dt > 0 ? std::min(dt / previous_dt, 2.0) : 0;
   for_blocks(particles.size(), [&](std::size_t begin, std::size_t end) {
     // The opening kick of length dt/2 starts from the corrected velocity, v* + previous_dt/2 (a - a_previous), so
     // vbar - v* = dt/4 a + previous_dt/2 (a - a_previous).

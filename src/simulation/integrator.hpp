@@ -5,7 +5,7 @@
 namespace ejecta {
 
 /// Moves every state to the end of a step dt [s], and makes the rates at its start the previous ones:
-///   x += dt v + dt^2/2 a,   v += dt a,   y += dt/2 (y'_0 + y'_e),   y'_e = y'_0 + min(1, dt/dt_p) (y'_0 - y'_p).
+///   x += dt v + dt^2/2 a,   v += dt a,   y += dt/2 (y'_0 + y'_e),   y'_e = y'_0 + min(2, dt/dt_p) (y'_0 - y'_p).
 /// Energy, stress and the logarithm of density (y) go by the mean of the rate and of what it is expected to be at the
 /// end if it goes on changing as it did in the step before, of length dt_p = previous_dt (0 at the start).
 template <int Dim>

@@ -47,7 +47,7 @@ TEST(Particles, CostTheBytesOfTheirColumnsAlone) {
   const std::size_t before = p.bytes();
   const std::array fields{Field::deviatoric_stress, Field::stress_rate};
   p.allocate(1000, fields);
-  EXPECT_EQ(p.bytes(), before + 1000 * (5 + 2 * 5) * sizeof(double));
+  EXPECT_EQ(p.bytes(), before + 1000 * (5 + 3 * 5) * sizeof(double));
 }
 
 TEST(Particles, SwapRatesExchangesPresentAndPreviousOfEveryRate) {

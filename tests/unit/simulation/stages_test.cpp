@@ -77,16 +77,17 @@ TEST(Stages, EveryColumnIsNamedByAStage) {
 }
 
 TEST(Stages, MemoryPerParticleStaysSmall) {
-  // At sizes where surfaces count little. Of the rock's, 450 are columns, 297 the records of the pair pass, 117 those
-  // of contact between pieces, 176 the sums over the surroundings, and the rest mostly candidate lists.
+  // At sizes where surfaces count little. Of the rock's, 506 are columns, 297 the records of the pair pass, 117 those
+  // of contact between pieces, 176 the sums over the surroundings, and the rest mostly candidate lists, which are longer
+  // for clusters of four (AVX2) than of eight.
   const auto rock = start<3>(porous_impact, {"resolution.spacing=2.2 mm"});
   const auto gas = start<2>(gas_tube, {"resolution.spacing=6.25 mm"});
   advance(*rock, 3);
   advance(*gas, 3);
   RecordProperty("rock_bytes", std::to_string(bytes_per_particle(*rock)));
   RecordProperty("gas_bytes", std::to_string(bytes_per_particle(*gas)));
-  EXPECT_LT(bytes_per_particle(*rock), 1300) << rock->particles.size() << " particles";
-  EXPECT_LT(bytes_per_particle(*gas), 500) << gas->particles.size() << " particles";
+  EXPECT_LT(bytes_per_particle(*rock), 1550) << rock->particles.size() << " particles";
+  EXPECT_LT(bytes_per_particle(*gas), 600) << gas->particles.size() << " particles";
 }
 
 }  // namespace
