@@ -49,9 +49,10 @@ class PairPassOf final : public PairPass<Dim> {
     const T* record = records_.data() + static_cast<std::size_t>(index) * R::size;
     for (int k = 0; k < values; k += line) __builtin_prefetch(record + k);
   }
-  /// Mixed: members or candidates of several pieces.
+  /// Mixed: members or candidates of several pieces. Inlined whatever its size: else the sums of its bodies would live
+  /// in memory.
   template <bool Mixed, class Count, class... Bodies>
-  void for_partners(const Members& members, const Support& support, std::span<const std::uint32_t> candidates,
+  [[gnu::always_inline]] inline void for_partners(const Members& members, const Support& support, std::span<const std::uint32_t> candidates,
                     int values, Count&& count, Bodies&&... bodies) const;
   void feel(std::size_t cluster, const PairLists<Dim>& lists);
   template <bool Mixed>
