@@ -257,6 +257,7 @@ class View:
         display.Color = INK
         display.BackgroundColor = [*PAPER, 0.8]  # ejecta that fly behind the words must not make them hard to read
         display.Padding = max(2, round(4 * self.size[1] / 720))
+        display.ShowBorder, display.BorderThickness = "Always", 0.0  # there is no background without a border
         set_font(display)
         display.Bold = 1 if bold else 0
         return source
@@ -338,6 +339,8 @@ class View:
         bar.UseCustomLabels = 1
         bar.CustomLabels = round_ticks(*(scale * value for value in colour_range(field, source)))
         bar.DrawTickMarks = 1
+        bar.DrawBackground, bar.BackgroundColor = 1, [*PAPER, 0.8]
+        bar.BackgroundPadding = 4
         bar.Visibility = 1
         return bar
 
