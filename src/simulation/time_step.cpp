@@ -16,7 +16,7 @@ template <int Dim>
 TimeStepVote vote_time_step(const Simulation<Dim>& sim) {
   const Particles<Dim>& p = sim.particles;
   const Numerics& numerics = sim.scene.numerics;
-  constexpr double never = std::numeric_limits<double>::infinity(), of_changes = 0.6;
+  constexpr double never = std::numeric_limits<double>::infinity();
   const auto h = p.column(Field::smoothing_length), sound = p.column(Field::sound_speed),
              approach = p.column(Field::approach_speed);
   const bool compresses = p.has(Field::compression_rate);
@@ -31,10 +31,10 @@ TimeStepVote vote_time_step(const Simulation<Dim>& sim) {
     return length / (sound[i] + 0.6 * viscous);
   };
   auto acceleration = [&](std::size_t i, double length) {
-    return of_changes * std::sqrt(length / p.vector(Field::acceleration, i).norm());
+    return std::sqrt(length / p.vector(Field::acceleration, i).norm());
   };
   auto compression = [&](std::size_t i) {
-    return compresses ? of_changes / std::abs(p.column(Field::compression_rate)[i]) : never;
+    return compresses ? 1 / std::abs(p.column(Field::compression_rate)[i]) : never;
   };
   auto shortest = [&](std::size_t i, double length) {
     return std::min({courant(i, length), acceleration(i, length), compression(i)});

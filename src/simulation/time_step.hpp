@@ -4,12 +4,9 @@
 namespace ejecta {
 
 /// The smallest time step any particle asks for, with the reason. All votes are Galilean invariant.
-///   Courant:      C h / (c + 0.6 (alpha c + beta max|mu|))   [Monaghan 1992, Annu. Rev. Astron. Astrophys. 30, 543]
-///   acceleration: 0.6 C sqrt(h/|a|)                          [the same]
-///   compression:  0.6 C / |(1/rho) drho/dt|
-/// The default C = 0.4, and 0.6 C = 0.25, are Monaghan's. The fastest wave on a cubic lattice then has w dt = 0.29, or
-/// 0.46 without viscosity, for any number of neighbours (integrator.hpp: stable up to 0.75). Errors of shocks and
-/// elastic waves are those at C = 0.25 to a few per cent of themselves.
+///   Courant:      C h / (c + 0.6 (alpha c + beta max|mu|))   [Monaghan 1992, eq. 3.4]
+///   acceleration: C sqrt(h/|a|)                              [Monaghan 1992, eq. 3.3]
+///   compression:  C / |(1/rho) drho/dt|
 template <int Dim>
 TimeStepVote vote_time_step(const Simulation<Dim>& sim);
 

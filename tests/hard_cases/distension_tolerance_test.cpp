@@ -66,7 +66,7 @@ double mean_difference(const std::vector<double>& a, const std::vector<double>& 
 /// m/s. It crushes a thirtieth of the bar, to a damage of 0.67: 0.021 on average, and somewhat less as the deviator
 /// bears a part. For tolerances up to 1e-7, the limit a scene may set, that is right to one particle of the 600, whose
 /// weakest flaw may be at the brink. At 1e-5 two to six times as much breaks; at 1e-3 the pressure of a particle also
-/// wanders nine times as far: some in every step, so the less the fewer the steps.
+/// wanders many times as far: some in every step, so the less the fewer the steps.
 TEST(DistensionTolerance, DamageOscillatesAboveAMillionthAndNotAtAllBelow) {
   const Outcome exact = crush(DistensionSolver::safe_newton, 1e-12);
   double mean_damage = 0;

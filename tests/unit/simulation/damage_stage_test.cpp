@@ -173,7 +173,7 @@ TEST(TensorDamageStage, ScalarAndTensorDamageGoTogether) {
   const auto sim = start<3>(porous_impact, both);
   const Particles<3>& p = sim->particles;
   auto before = by_id(p, Field::damage);
-  for (int k = 0; k < 150; ++k) {
+  for (int k = 0; k < 240; ++k) {
     step(*sim, no_limit);
     const auto after = by_id(p, Field::damage);
     for (std::size_t i = 0; i < after.size(); ++i) ASSERT_GE(after[i], before[i]) << "nothing heals";

@@ -15,7 +15,7 @@ class Tension(Case):
     """Resolution: particles along a side."""
     exact = "no motion"
     quick = full = (20,)
-    momentum, mixed_drift = 1e-11, 2e-3  # relative to the momentum of a body that does not move: of noise
+    momentum, mixed_drift = 1e-11, 1e-3  # relative to the momentum of a body that does not move
     rotation = "the displacements are drawn by place"
 
     def __init__(self, kernel, nodes_per_h):
