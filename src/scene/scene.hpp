@@ -76,7 +76,7 @@ struct Numerics {
   Switch bonds = Switch::automatic;                ///< elastic matter holds on to the neighbours of the start
   double viscosity_alpha = 1;                      ///< linear coefficient of Monaghan's viscosity
   double viscosity_beta = 2;                       ///< quadratic coefficient
-  double courant = 0.25;
+  double courant = 0.4;
   DistensionSolver distension_solver = DistensionSolver::safe_newton;
   double distension_tolerance = 1e-12;
   double max_energy_drift = 0.05;  ///< run ends with an error beyond this relative drift of total energy

@@ -14,12 +14,22 @@ namespace ejecta {
 /// with the neighbours instead of growing beyond limits: a particle torn off all others strains no more.
 inline constexpr double least_moment = 0.2;
 
+/// Bound on (h^2 sum_j |V_j grad W|^2)^(1/2) over the smallest stretch, how much of a relative velocity a particle takes
+/// for strain [1/h]: 0.6 to 0.7 in the interior, 1.0 to 1.2 at a face, 1.6 at a corner (cubic lattice, 1.3 per h). The
+/// few of a torn clump come nearer to each other than a spacing; exact gradients would make them swing at 7 c per
+/// spacing, where the lattice has 0.9 and its corners 2 (clump of ten, n_h = 1.3): faster than steps of signal
+/// crossings follow, and the energy of such swings would be taken from their heat.
+inline constexpr double most_stiffness = 1.75;
+
+/// Smallest stretch that is inverted, of particles with this (h^2 sum_j |V_j grad W|^2)^(1/2).
+inline double least_stretch(double stiffness) { return std::max(least_moment, stiffness / most_stiffness); }
+
 /// What becomes of the raw sum R = sum_j V_j v_ji (grad W)^T and of a stress sigma:
 ///   L = P R Q^T,   T = P sigma Q,   sigma : L = T : R.
 /// With enough neighbours P = I and Q = M^-T, so that L is exact for linear fields [Randles & Libersky 1996] and the
 /// pair forces V_i V_j (T_i + T_j) grad W are its adjoint: work and heat agree, and T M^T = sigma is symmetric, so that
 /// angular momentum is conserved exactly [Bonet & Lok 1999]. With too few, M = U s V^T is inverted with p/s in place of
-/// 1/s, p = min(1, s/least_moment), and P = U p U^T. Then T M^T = P sigma P, still symmetric, and a rigid rotation
+/// 1/s, p = min(1, s/least), and P = U p U^T. Then T M^T = P sigma P, still symmetric, and a rigid rotation
 /// R = W M gives L = P W P, which has no strain: both invariances hold however few the neighbours are.
 template <int Dim>
 struct GradientCorrection {
@@ -36,28 +46,29 @@ struct GradientCorrection {
   }
 };
 
+/// With the moment matrix, and the smallest stretch of it that is inverted as it stands.
 template <int Dim>
-GradientCorrection<Dim> gradient_correction(const Mat<Dim>& moment) {
+GradientCorrection<Dim> gradient_correction(const Mat<Dim>& moment, double least = least_moment) {
   GradientCorrection<Dim> c;
   const Mat<Dim> inverse = moment.inverse();
   // The Frobenius norm of the inverse is at least its largest stretch: this spares most particles the decomposition. A
   // determinant below the least possible one is checked too: that of few neighbours is round-off, and so is the
   // inverse.
-  const double least_determinant = Dim == 2 ? least_moment * least_moment : least_moment * least_moment * least_moment;
-  if (std::abs(moment.determinant()) >= least_determinant && inverse.squaredNorm() * least_moment * least_moment < 1) {
+  const double least_determinant = Dim == 2 ? least * least : least * least * least;
+  if (std::abs(moment.determinant()) >= least_determinant && inverse.squaredNorm() * least * least < 1) {
     c.Q = inverse.transpose();
     return c;
   }
   const Eigen::JacobiSVD<Mat<Dim>> svd(moment, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Vec<Dim> s = svd.singularValues();
-  if (s[Dim - 1] >= least_moment) {
+  if (s[Dim - 1] >= least) {
     c.Q = inverse.transpose();
     return c;
   }
   Vec<Dim> share, reciprocal;
   for (int k = 0; k < Dim; ++k) {
-    share[k] = std::min(1.0, s[k] / least_moment);
-    reciprocal[k] = s[k] < least_moment ? 1 / least_moment : 1 / s[k];
+    share[k] = std::min(1.0, s[k] / least);
+    reciprocal[k] = 1 / std::max(s[k], least);
   }
   c.P = svd.matrixU() * share.asDiagonal() * svd.matrixU().transpose();
   c.Q = svd.matrixU() * reciprocal.asDiagonal() * svd.matrixV().transpose();

@@ -179,6 +179,7 @@ void PairPassOf<T, Dim, Kind, K>::look_around(Particles<Dim>& particles, const C
   constexpr bool along = !Kind.tensor && !Kind.bonded;  // the gradient is along the pair
   std::conditional_t<along, pair_detail::SymmetricSum<V, Dim>, TensorSum> moment;
   [[maybe_unused]] TensorSum touched;
+  pair_detail::SquareSum<V, Dim, Kind.tensor> squares, squares_of_others;
   V stretch2 = V{} + T(1);
   for_partners<Mixed>(
       members, support, candidates, R::v, [](const auto&) {},
@@ -199,15 +200,24 @@ void PairPassOf<T, Dim, Kind, K>::look_around(Particles<Dim>& particles, const C
               weighted[b] *= own;
             }
             touched.add(p.dx, others);
+            squares_of_others.add(others);
           }
         moment.add(p.dx, weighted);
+        squares.add(weighted);
         if constexpr (Kind.bonded) stretch2 = simd::max(stretch2, members.stretch2(p));
       });
   for (std::size_t i = c.begin; i < c.end; ++i) {
     const int k = static_cast<int>(i - c.begin);
     const double expansion = static_cast<double>(records_[i * R::size + R::expansion]);
-    around_.sums[i].moment = expansion * moment.of_lane(k);
-    if constexpr (Mixed) around_.sums[i].touched = expansion * touched.of_lane(k);
+    auto& sums = around_.sums[i];
+    sums.moment = expansion * moment.of_lane(k);
+    const auto scale = Support::scale(records_.data() + i * R::size);
+    const double squared = expansion * expansion, own_squares = squared * squares.of_lane(k, scale);
+    sums.least = least_stretch(std::sqrt(own_squares));
+    if constexpr (Mixed) {
+      sums.touched = expansion * touched.of_lane(k);
+      sums.least_of_all = least_stretch(std::sqrt(own_squares + squared * squares_of_others.of_lane(k, scale)));
+    }
     if constexpr (Kind.bonded) particles.column(Field::stretch)[i] = std::sqrt(static_cast<double>(stretch2[k]));
   }
 }
@@ -371,11 +381,11 @@ void PairPassOf<T, Dim, Kind, K>::cluster_rates(Particles<Dim>& particles, const
       Mat<Dim> L = expanded * raw;
       if constexpr (Kind.stress) {
         const auto& sums = around_.sums[i];
-        L = around_.correction(sums.moment).gradient(expanded * raw);
+        L = around_.own(sums).gradient(expanded * raw);
         if constexpr (Mixed)
           if (!sums.touched.isZero(0)) {
             const Mat<Dim> others = touched.of_lane(k);
-            const Mat<Dim> all = around_.correction(sums.moment + sums.touched).gradient(expanded * (raw + others));
+            const Mat<Dim> all = around_.all(sums).gradient(expanded * (raw + others));
             L = touching_gradient<Dim>(L, all, sums.normal(), touch.pressed(k));
             work += pair_detail::double_contract<true, Dim>(touch.press, k, others);
           }
@@ -383,7 +393,7 @@ void PairPassOf<T, Dim, Kind, K>::cluster_rates(Particles<Dim>& particles, const
       pair_detail::store(particles, Field::velocity_gradient, i, Mat<Dim>(per_unit * L));
       if constexpr (Kind.coupled) {
         const Mat<Dim> left = around_.sums[i].moment - expanded * cut_moment.of_lane(k);
-        const Mat<Dim> coupled = gradient_correction<Dim>(left).gradient(expanded * (raw - cut.of_lane(k)));
+        const Mat<Dim> coupled = gradient_correction<Dim>(left, around_.sums[i].least).gradient(expanded * (raw - cut.of_lane(k)));
         pair_detail::store(particles, Field::coupled_gradient, i, Mat<Dim>(per_unit * coupled));
       }
     } else {

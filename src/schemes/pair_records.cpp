@@ -80,9 +80,9 @@ double touching_of(double occupied, const HalfSpace& touched, double size, doubl
 template <int Dim>
 TouchingStress<Dim> corrected(const Mat<Dim>& sigma, const Surroundings<Dim>& around, std::size_t i) {
   const auto& sums = around.sums[i];
-  const GradientCorrection<Dim> own = around.correction(sums.moment);
+  const GradientCorrection<Dim> own = around.own(sums);
   if (sums.touched.isZero(0)) return {own.stress(sigma), Mat<Dim>::Zero()};
-  return touching_stress<Dim>(sigma, sums.normal(), own, around.correction(sums.moment + sums.touched));
+  return touching_stress<Dim>(sigma, sums.normal(), own, around.all(sums));
 }
 
 /// The symmetric part of a velocity gradient [1/s], with what is off its diagonal twice.

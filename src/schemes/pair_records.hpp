@@ -47,6 +47,8 @@ struct Surroundings {
   struct Sums {
     Mat<Dim> moment = Mat<Dim>::Zero();   ///< M of the own neighbours
     Mat<Dim> touched = Mat<Dim>::Zero();  ///< what other pieces add to it
+    double least = least_moment;          ///< smallest stretch of M that is inverted as it stands
+    double least_of_all = least_moment;   ///< the same with what other pieces add
     Vec<Dim> outward = Vec<Dim>::Zero();  ///< sum over other pieces of V_j grad W, in 1/length_unit
     double occupied = 0;                  ///< sum over other pieces of V_j W
     /// Towards what is touched; 0 if nothing is.
@@ -57,8 +59,12 @@ struct Surroundings {
   /// `occupied` of a particle half its own size from what it touches, at u = size/(2 h).
   HalfSpace half_space;
 
-  GradientCorrection<Dim> correction(const Mat<Dim>& moment) const {
-    return corrects ? gradient_correction<Dim>(moment) : GradientCorrection<Dim>{};
+  /// By the own neighbours, and by all.
+  GradientCorrection<Dim> own(const Sums& s) const {
+    return corrects ? gradient_correction<Dim>(s.moment, s.least) : GradientCorrection<Dim>{};
+  }
+  GradientCorrection<Dim> all(const Sums& s) const {
+    return corrects ? gradient_correction<Dim>(s.moment + s.touched, s.least_of_all) : GradientCorrection<Dim>{};
   }
 };
 

@@ -166,6 +166,20 @@ struct SymmetricSum {
   }
 };
 
+/// Sum over partners of (a h)^2 with the own smoothing length, or of |H^-1 a|^2 with the own metric G = H H.
+template <class V, int Dim, bool Tensor>
+struct SquareSum {
+  V sum{};
+  void add(const V (&a)[Dim]) { sum += dot(a, a); }
+  double of_lane(int lane, double h) const { return h * h * static_cast<double>(sum[lane]); }
+};
+template <class V, int Dim>
+struct SquareSum<V, Dim, true> {
+  SymmetricSum<V, Dim> sum;
+  void add(const V (&a)[Dim]) { sum.add(a, a); }
+  double of_lane(int lane, const Mat<Dim>& metric) const { return (metric.inverse() * sum.of_lane(lane)).trace(); }
+};
+
 template <int Dim>
 void store(Particles<Dim>& particles, Field field, std::size_t i, const Mat<Dim>& m) {
   for (int a = 0; a < Dim; ++a)

@@ -66,6 +66,9 @@ struct IsotropicSupport {
     return {S(10) * tenth * simd::min(closing, V{}), r2 + tenth * tenth};
   }
 
+  /// h of the particle of a record [unit].
+  static double scale(const S* record) { return 20 * static_cast<double>(record[R::h]); }
+
   /// Kernel value and |dW/deta| at eta_i, both without norm.
   void value(const V (&)[Dim], V r2, V& w, V& moment) const {
     const V q = S(K::support) * simd::square_root(V(r2 + support_detail::guard<S>)) * reach_reciprocal;
@@ -136,6 +139,13 @@ struct TensorSupport {
     const V eta = p.mean_eta;
     return {simd::min(closing, V{}) * simd::reciprocal_sqrt(V(r2 + support_detail::guard<S>)) * eta,
             eta * eta + S(0.01)};
+  }
+
+  /// G of the particle of a record [1/unit^2].
+  static Mat<Dim> scale(const S* record) {
+    Symmetric<Dim> g;
+    for (int s = 0; s < symmetric_size<Dim>; ++s) g[s] = static_cast<double>(record[R::metric + s]);
+    return matrix_of<Dim>(g);
   }
 
   void value(const V (&dx)[Dim], V, V& w, V& moment) const {

@@ -50,23 +50,30 @@ class DisjointSets {
   std::vector<BoxShift> shift_;  ///< to the parent
 };
 
-/// A cell of one of the grids; `level` counts octaves of particle size.
+/// A cell of one of the grids; `level` counts half octaves of particle size.
 struct Cell {
   int level;
   std::array<std::int64_t, 3> index;
 };
 
-/// Particles sorted into hashed cells. Two cells may share a bucket: that only costs a distance check.
+/// Particles sorted into hashed cells, with what every look at them asks for. Two cells may share a bucket: that only
+/// costs a distance check.
 class HashedCells {
  public:
-  HashedCells(const std::vector<std::uint32_t>& members, const std::vector<Cell>& cell_of)
+  struct Entry {
+    Vec<3> place;
+    std::uint32_t index;
+    int piece;
+  };
+
+  HashedCells(const FragmentInput& in, const std::vector<std::uint32_t>& members, const std::vector<Cell>& cell_of)
       : mask_(std::bit_ceil(members.size() + 1) - 1), start_(mask_ + 2, 0), sorted_(members.size()) {
     for (const std::uint32_t i : members) ++start_[bucket(cell_of[i]) + 1];
     std::partial_sum(start_.begin(), start_.end(), start_.begin());
     std::vector<std::uint32_t> next(start_.begin(), start_.end() - 1);
-    for (const std::uint32_t i : members) sorted_[next[bucket(cell_of[i])]++] = i;
+    for (const std::uint32_t i : members) sorted_[next[bucket(cell_of[i])]++] = {in.place(i), i, in.piece(i)};
   }
-  std::span<const std::uint32_t> at(const Cell& cell) const {
+  std::span<const Entry> at(const Cell& cell) const {
     const std::size_t b = bucket(cell);
     return {sorted_.data() + start_[b], start_[b + 1] - start_[b]};
   }
@@ -81,7 +88,8 @@ class HashedCells {
     return static_cast<std::size_t>(hash ^ (hash >> 32)) & mask_;
   }
   std::size_t mask_;
-  std::vector<std::uint32_t> start_, sorted_;
+  std::vector<std::uint32_t> start_;
+  std::vector<Entry> sorted_;
 };
 
 /// |x_ij| < b (d_i + d_j) / 2.
@@ -153,7 +161,7 @@ void for_images(const FragmentInput& in, std::size_t i, double reach, Body&& bod
       for (moved[0] = low[0]; moved[0] <= high[0]; ++moved[0]) body(in.unwrapped(x, moved), moved);
 }
 
-/// Joins all friends among `members`. Each particle looks into the grids of its own and of larger octaves, whose cells
+/// Joins all friends among `members`. Each particle looks into the grids of its own and of larger levels, whose cells
 /// are at least as wide as any link between the two.
 template <class Link>
 void join_linked(const FragmentInput& in, const std::vector<std::uint32_t>& members, const Link& linked,
@@ -162,7 +170,7 @@ void join_linked(const FragmentInput& in, const std::vector<std::uint32_t>& memb
   double smallest = std::numeric_limits<double>::infinity();
   for (const std::uint32_t i : members) smallest = std::min(smallest, linked.reach(i));
 
-  const auto cell_width = [&](int level) { return std::ldexp(smallest, level + 1); };
+  const auto cell_width = [&](int level) { return smallest * std::exp2(0.5 * (level + 1)); };
   const auto cell_at = [&](const Vec<3>& x, int level) {
     // Beyond this many cells neighbours can no longer be told apart in double precision anyway.
     constexpr double far = 1e15;
@@ -176,16 +184,17 @@ void join_linked(const FragmentInput& in, const std::vector<std::uint32_t>& memb
   };
   std::vector<int> levels;
   for (const std::uint32_t i : members) {
-    const int level = std::ilogb(linked.reach(i) / smallest);
+    const int level = static_cast<int>(2 * std::log2(linked.reach(i) / smallest));
     cell_of[i] = cell_at(in.place(i), level);
     levels.push_back(level);
   }
   std::sort(levels.begin(), levels.end());
   levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
 
-  const HashedCells cells(members, cell_of);
+  const HashedCells cells(in, members, cell_of);
   const int depth = in.dimension() == 3 ? 1 : 0;
   for (const std::uint32_t i : members) {
+    const int piece = in.piece(i);
     for (auto level = std::lower_bound(levels.begin(), levels.end(), cell_of[i].level); level != levels.end();
          ++level) {
       for_images(in, i, cell_width(*level), [&](const Vec<3>& x, const BoxShift& moved) {
@@ -193,10 +202,10 @@ void join_linked(const FragmentInput& in, const std::vector<std::uint32_t>& memb
         for (int dz = -depth; dz <= depth; ++dz)
           for (int dy = -1; dy <= 1; ++dy)
             for (int dx = -1; dx <= 1; ++dx)
-              for (const std::uint32_t j :
+              for (const HashedCells::Entry& other :
                    cells.at({*level, {home.index[0] + dx, home.index[1] + dy, home.index[2] + dz}})) {
-                if (j <= i && *level == cell_of[i].level) continue;  // seen from j
-                if (in.piece(i) == in.piece(j) && linked(i, j, in.place(j) - x)) sets.join(i, j, moved);
+                if (other.index <= i && *level == cell_of[i].level) continue;  // seen from the other
+                if (other.piece == piece && linked(i, other.index, other.place - x)) sets.join(i, other.index, moved);
               }
       });
     }

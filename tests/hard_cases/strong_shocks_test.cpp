@@ -131,7 +131,7 @@ TEST(StrongShocks, AnyImpactSpeedRunsOrIsNamed) {
     const Outcome outcome = follow(*sim, 60);
     EXPECT_EQ(outcome.error, "") << speed;
     EXPECT_LT(std::abs(outcome.conservation.energy), 1e-13) << speed;
-    EXPECT_GE(outcome.least_energy, 0) << speed;
+    EXPECT_GE(outcome.least_energy, -1e-9) << speed;  // round-off of 4.5e16 J/kg
   }
   for (const char* speed : {"1e12 m/s", "1e100 m/s", "1e200 m/s"}) {
     const auto sim = start<3>(porous_impact, {std::string("bodies.ball.velocity=0 0 -") + speed});

@@ -22,6 +22,7 @@ Particles<Dim> deformed(const Mat<Dim>& F, const Mat<Dim>& A, bool tensor) {
   std::vector<Field> more{Field::start_position, Field::bond, Field::stretch};
   if (tensor) more.push_back(Field::smoothing_metric);
   auto p = random_matter<Dim>(400, 61, true, 1.5, more);
+  even_surroundings(p);
   if (tensor) random_ellipsoids(p, 2, 62);
   const double longest = Eigen::JacobiSVD<Mat<Dim>>(F).singularValues()[0];
   for (std::size_t i = 0; i < p.size(); ++i) {

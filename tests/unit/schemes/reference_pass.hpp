@@ -55,10 +55,12 @@ inline KernelFunctions functions_of(Kernel kernel, int dim) {
 template <int Dim>
 struct Inverse {
   Mat<Dim> P = Mat<Dim>::Identity(), Q = Mat<Dim>::Identity();
-  static Inverse of(const Mat<Dim>& M) {
+  /// squares: sum of |H^-1 V_j grad W|^2.
+  static Inverse of(const Mat<Dim>& M, double squares) {
+    const double least = std::max(least_moment, std::sqrt(squares) / most_stiffness);
     const Eigen::JacobiSVD<Mat<Dim>> svd(M, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    const Vec<Dim> p = (svd.singularValues() / least_moment).cwiseMin(1);
-    const Vec<Dim> q = svd.singularValues().cwiseMax(least_moment).cwiseInverse();
+    const Vec<Dim> p = (svd.singularValues() / least).cwiseMin(1);
+    const Vec<Dim> q = svd.singularValues().cwiseMax(least).cwiseInverse();
     const Mat<Dim>&U = svd.matrixU(), &V = svd.matrixV();
     return {U * p.asDiagonal() * U.transpose(), U * q.asDiagonal() * V.transpose()};
   }
@@ -162,13 +164,13 @@ class Reference {
       uncut_moment += left * add_moment;
     }
     const auto corrected = [](const Inverse<Dim>& k, const Mat<Dim>& raw) { return k.P * raw * k.Q.transpose(); };
-    sums.gradient = corrected(inverse(own.moment), R);
+    sums.gradient = corrected(inverse(own.moment, own.squares), R);
     if (!own.touched.isZero(0)) {
-      const Mat<Dim> both = corrected(inverse(own.moment + own.touched), R + touched);
+      const Mat<Dim> both = corrected(inverse(own.moment + own.touched, own.squares + own.touched_squares), R + touched);
       const double opening = own.normal.dot((both - sums.gradient) * own.normal);
       if (opening < 0 || !own.press.isZero(0)) sums.gradient += opening * own.normal * own.normal.transpose();
     }
-    sums.coupled_gradient = corrected(Inverse<Dim>::of(uncut_moment), uncut);
+    sums.coupled_gradient = corrected(Inverse<Dim>::of(uncut_moment, own.squares), uncut);
     return sums;
   }
 
@@ -180,6 +182,7 @@ class Reference {
   struct View {
     Mat<Dim> G, H, L, own, press = Mat<Dim>::Zero(), moment = Mat<Dim>::Zero(), touched = Mat<Dim>::Zero();
     Vec<Dim> normal = Vec<Dim>::Zero();
+    double squares = 0, touched_squares = 0;
     double V, r, Z, touching = 0;  ///< r: rho0/rho
     int piece = 0;
   };
@@ -255,9 +258,12 @@ class Reference {
           view.moment += weight(i, j) * q.x * q.g.transpose();
         else
           view.touched += share(i, j) * views_[j].V * q.x * q.g.transpose();
+        const Vec<Dim> scaled = (q.own ? weight(i, j) : share(i, j) * views_[j].V) * view.H.inverse() * q.g;
+        (q.own ? view.squares : view.touched_squares) += scaled.squaredNorm();
       }
       const Mat<Dim> sigma = stress_of(p_, intact, settings_.coupled, i);
-      const Inverse<Dim> own = inverse(view.moment), both = inverse(view.moment + view.touched);
+      const Inverse<Dim> own = inverse(view.moment, view.squares),
+                         both = inverse(view.moment + view.touched, view.squares + view.touched_squares);
       const Vec<Dim>& n = view.normal;
       const Mat<Dim> passed = std::min(0.0, n.dot(sigma * n)) * n * n.transpose();
       if (!view.touched.isZero(0)) view.press = both.P * passed * both.Q;
@@ -273,8 +279,8 @@ class Reference {
     for (std::size_t i = 0; i < copies_.size(); ++i)
       if (source(i) != i) take(views_[i], views_[source(i)], copies_[i].sign);
   }
-  Inverse<Dim> inverse(const Mat<Dim>& M) const {
-    return settings_.gradient_correction ? Inverse<Dim>::of(M) : Inverse<Dim>{};
+  Inverse<Dim> inverse(const Mat<Dim>& M, double squares) const {
+    return settings_.gradient_correction ? Inverse<Dim>::of(M, squares) : Inverse<Dim>{};
   }
 
   /// Where other pieces are, and how near.
