@@ -52,8 +52,9 @@ class PairPassOf final : public PairPass<Dim> {
   /// Mixed: members or candidates of several pieces. Inlined whatever its size: else the sums of its bodies would live
   /// in memory.
   template <bool Mixed, class Count, class... Bodies>
-  [[gnu::always_inline]] inline void for_partners(const Members& members, const Support& support, std::span<const std::uint32_t> candidates,
-                    int values, Count&& count, Bodies&&... bodies) const;
+  [[gnu::always_inline]] inline void for_partners(const Members& members, const Support& support,
+                                                  std::span<const std::uint32_t> candidates, int values, Count&& count,
+                                                  Bodies&&... bodies) const;
   void feel(std::size_t cluster, const PairLists<Dim>& lists);
   template <bool Mixed>
   void look_around(Particles<Dim>& particles, const Cluster& c, std::span<const std::uint32_t> candidates);
@@ -312,9 +313,11 @@ void PairPassOf<T, Dim, Kind, K>::cluster_rates(Particles<Dim>& particles, const
     if constexpr (!along_gradient)
       for (int a = 0; a < Dim; ++a) force[a] -= viscosity * (central * p.dx[a]);
     if constexpr (R::split) {
-      // Half of the work of the very force that acts, and what the two stresses differ by: the first is the same
-      // number for j, the second its negative, so that work and heat differ by the rounding of dv alone.
-      for (int a = 0; a < Dim; ++a) heat.add_product(volume, force[a], dv[a]);
+      // Half of the work of the very force that acts on the velocity of j, that on v follows from the sum of forces; and
+      // what the two stresses differ by. The work of both sides is then the same in double precision, and what they
+      // differ by the negative: no rounding of dv comes between work and heat.
+      for (int a = 0; a < Dim; ++a)
+        heat.add(static_cast<double>(volume) * static_cast<double>(j[R::v + a]), force[a]);
       heat.add(volume, pair_detail::dot(uneven, dv));
     } else {
       heat.add(-volume, viscosity * (Kind.stress ? V(central * along) : pair_detail::dot(dv, kernel_gradient)));
@@ -393,13 +396,17 @@ void PairPassOf<T, Dim, Kind, K>::cluster_rates(Particles<Dim>& particles, const
       pair_detail::store(particles, Field::velocity_gradient, i, Mat<Dim>(per_unit * L));
       if constexpr (Kind.coupled) {
         const Mat<Dim> left = around_.sums[i].moment - expanded * cut_moment.of_lane(k);
-        const Mat<Dim> coupled = gradient_correction<Dim>(left, around_.sums[i].least).gradient(expanded * (raw - cut.of_lane(k)));
+        const auto correction = gradient_correction<Dim>(left, around_.sums[i].least);
+        const Mat<Dim> coupled = correction.gradient(expanded * (raw - cut.of_lane(k)));
         pair_detail::store(particles, Field::coupled_gradient, i, Mat<Dim>(per_unit * coupled));
       }
     } else {
       work = static_cast<double>(stress[0][k]) * static_cast<double>(divergence[k]);
     }
-    double heating = 0.5 * heat.lane(k) + friction_heat.lane(k);
+    double pairs = heat.lane(k);
+    if constexpr (R::split)
+      for (int a = 0; a < Dim; ++a) pairs -= static_cast<double>(v[a][k]) * acceleration[a].lane(k);
+    double heating = 0.5 * pairs + friction_heat.lane(k);
     if constexpr (!R::split) heating += work;
     heating *= specific_volume * per_unit;
     if constexpr (R::split)  // the work above is that of rounded velocities, and the rest belongs to the particle alone

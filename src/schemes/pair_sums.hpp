@@ -20,7 +20,8 @@ V dot(const V (&a)[Dim], const V (&b)[Dim]) {
 
 /// ((A + Sign B - pressure I) . g)_a with tensors stored row by row, or one number each for isotropic stresses.
 template <bool Stress, int Dim, int Sign = 1, class TensorA, class TensorB, class V>
-[[gnu::always_inline]] inline void contract(const TensorA& A, const TensorB& B, V pressure, const V (&g)[Dim], V (&f)[Dim]) {
+[[gnu::always_inline]] inline void contract(const TensorA& A, const TensorB& B, V pressure, const V (&g)[Dim],
+                                            V (&f)[Dim]) {
   const auto both = [&](int k) {
     const V sum = Sign > 0 ? V(A[k] + B[k]) : V(A[k] - B[k]);
     return Sign > 0 && (!Stress || k % (Dim + 1) == 0) ? V(sum - pressure) : sum;

@@ -5,12 +5,29 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "base/errors.hpp"
 #include "base/parallel.hpp"
 #include "particles/smoothing_metric.hpp"
+#include "simulation/stages.hpp"
 
 namespace ejecta {
+
+namespace {
+
+/// Smoothing length at the start by body [m]; infinite where gradients are not corrected.
+template <int Dim>
+std::vector<double> crossings_at_start(const Simulation<Dim>& sim) {
+  const bool corrected = corrects_gradients(sim.scene, sim.materials);
+  std::vector<double> lengths;
+  for (const Body& body : sim.scene.bodies)
+    lengths.push_back(corrected ? sim.scene.numerics.nodes_per_h * sim.scene.spacing * body.spacing_factor
+                                : std::numeric_limits<double>::infinity());
+  return lengths;
+}
+
+}  // namespace
 
 template <int Dim>
 TimeStepVote vote_time_step(const Simulation<Dim>& sim) {
@@ -20,10 +37,17 @@ TimeStepVote vote_time_step(const Simulation<Dim>& sim) {
   const auto h = p.column(Field::smoothing_length), sound = p.column(Field::sound_speed),
              approach = p.column(Field::approach_speed);
   const bool compresses = p.has(Field::compression_rate);
-  // What a signal crosses first: the shortest axis of a smoothing ellipsoid.
+  // What a signal crosses first: the shortest axis of a smoothing ellipsoid. Where gradients are exact, it is no longer
+  // than at the start: a particle with few neighbours widens h, but those that it has are as near as before, and as
+  // stiff.
   const bool tensor = p.has(Field::smoothing_metric);
+  const std::vector<double> longest = crossings_at_start(sim);
+  const auto body = p.label(Label::body);
+  auto within = [&](std::size_t i, double length) {
+    return std::min(length, longest[static_cast<std::size_t>(body[i])]);
+  };
   auto crossing = [&](std::size_t i) {
-    return tensor ? axes_of<Dim>(p.symmetric(Field::smoothing_metric, i)).shortest : h[i];
+    return within(i, tensor ? axes_of<Dim>(p.symmetric(Field::smoothing_metric, i)).shortest : h[i]);
   };
   // One pass over the particles finds the smallest; the reason is worked out for that particle alone.
   auto courant = [&](std::size_t i, double length) {
@@ -43,7 +67,7 @@ TimeStepVote vote_time_step(const Simulation<Dim>& sim) {
   };
   // Bounds on the axes tell most particles apart from the one sought, and spare them the eigenvalues.
   auto bound = [&](std::size_t i) {
-    return shortest(i, tensor ? shortest_axis_bound<Dim>(p.symmetric(Field::smoothing_metric, i)) : h[i]);
+    return shortest(i, within(i, tensor ? shortest_axis_bound<Dim>(p.symmetric(Field::smoothing_metric, i)) : h[i]));
   };
   IndexedMin least = parallel_min(p.size(), never, bound);
   if (tensor && least.index < p.size()) {

@@ -70,8 +70,8 @@ PORES = material("porosity", model="two_power", initial_distension=3.32428571428
                  transition_pressure="68 MPa", solid_pressure="213 MPa", reference_distension=4.64,
                  transition_distension=1.90, n1=12, n2=3)
 # Beside columns: what damage leaves of the deviator; a number of the packed records, with room for an eighth more of
-# them; and the sums over the surroundings (two tensors, a vector and a number).
-INTACT, RECORDED, SURROUNDINGS = 8, 9, 8 * (9 + 9 + 3 + 1)
+# them; and the sums over the surroundings (two tensors, a vector and three numbers).
+INTACT, RECORDED, SURROUNDINGS = 8, 9, 8 * (9 + 9 + 2 + 3 + 1)
 BONDS = ("start_position", "bond", "stretch")
 # Images have records too: the gas of cost_test.py, 10 particles wide, has 3 more layers beyond each of its faces.
 WITH_IMAGES = 1.6**3

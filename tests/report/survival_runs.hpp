@@ -129,7 +129,8 @@ inline std::vector<Run> spread(const std::vector<Material>& materials) {
                            "aluminium into water 4 2d", "polycarbonate into polycarbonate 7 2d", "iron into nylon 7 2d",
                            "iron into dry_tuff 10 2d", "steel_304 into air 10 2d", "basalt into ice 15 tensor",
                            "ice into ice 30 mixed", "iron into water 30 3d", "pumice into pumice 20 2d",
-                           "alluvium into alluvium 1 2d", "aermet_100 into anorthosite 1 2d", "alluvium into rubber 1 2d"})
+                           "alluvium into alluvium 1 2d", "aermet_100 into anorthosite 1 2d",
+                           "alluvium into rubber 1 2d"})
     runs.push_back(parse_run(hard, materials));
   return runs;
 }

@@ -23,7 +23,7 @@ TEST(TimeStep, IsTheCourantConditionOfAGasAtRest) {
   const double h = p.column(Field::smoothing_length)[i];
   EXPECT_EQ(vote.particle, i);
   EXPECT_EQ(vote.reason, "Courant condition");
-  EXPECT_NEAR(vote.dt, n.courant * h / (10 + 0.6 * (n.viscosity_alpha * 10 + n.viscosity_beta * 3)), 1e-15 * h);
+  EXPECT_NEAR(vote.dt, n.courant * h / (10 + 0.6 * (n.viscosity_alpha * 10 + 2 * n.viscosity_beta * 3)), 1e-15 * h);
 }
 
 TEST(TimeStep, IsShortenedByAcceleration) {

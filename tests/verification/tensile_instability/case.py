@@ -15,7 +15,9 @@ class Tension(Case):
     """Resolution: particles along a side."""
     exact = "no motion"
     quick = full = (20,)
-    momentum, mixed_drift = 1e-11, 1e-3  # relative to the momentum of a body that does not move
+    # Relative to the momentum of a body that hardly moves; in mixed precision what the rounding of forces adds up to in
+    # a thousand steps (1.2e-3 to 2.1e-3).
+    momentum, mixed_drift = 1e-11, 2.5e-3
     rotation = "the displacements are drawn by place"
 
     def __init__(self, kernel, nodes_per_h):
