@@ -312,8 +312,13 @@ void PairPassOf<T, Dim, Kind, K>::cluster_rates(Particles<Dim>& particles, const
     }
     if constexpr (!along_gradient)
       for (int a = 0; a < Dim; ++a) force[a] -= viscosity * (central * p.dx[a]);
+    if constexpr (Mixed)
+      if (p.foreign && touch.friction > 0)
+        friction_heat.add(
+            volume,
+            touch.rub(p, dv, own, force, V((expansion * j[R::expansion]) * (central * simd::square_root(p.r2)))));
     if constexpr (R::split) {
-      // Half of the work of the very force that acts on the velocity of j, that on v follows from the sum of forces; and
+      // Half of the work of the very force that acts on the velocity of j (on v it follows from the sum of forces), and
       // what the two stresses differ by. The work of both sides is then the same in double precision, and what they
       // differ by the negative: no rounding of dv comes between work and heat.
       for (int a = 0; a < Dim; ++a)
@@ -322,11 +327,6 @@ void PairPassOf<T, Dim, Kind, K>::cluster_rates(Particles<Dim>& particles, const
     } else {
       heat.add(-volume, viscosity * (Kind.stress ? V(central * along) : pair_detail::dot(dv, kernel_gradient)));
     }
-    if constexpr (Mixed)
-      if (p.foreign && touch.friction > 0)
-        friction_heat.add(
-            volume,
-            touch.rub(p, dv, own, force, V((expansion * j[R::expansion]) * (central * simd::square_root(p.r2)))));
     for (int a = 0; a < Dim; ++a) acceleration[a].add(volume, force[a]);
     fastest = simd::min(fastest, V(p.pair.moment > 0 ? mu : V{}));
   };

@@ -258,8 +258,9 @@ struct Touch {
     const V n2 = mean_normal(p, n), gap = dot(dv, n) * dot(p.dx, n) / (n2 + T(1e-20));
     return n2 > T(0.01) ? gap : along;
   }
-  /// Adds friction to the force per volume; returns half of what it heats. The velocity of an
-  /// image behind a wall is mirrored; the wall itself rests.
+  /// Adds friction to the force per volume; returns half of what it heats, in single precision beyond half of its work
+  /// on dv, which the pass counts with that of the other forces. The velocity of an image behind a wall is mirrored; the
+  /// wall itself rests.
   template <class Partner>
   V rub(const Partner& p, const V (&dv)[Dim], V own, V (&force)[Dim], V reach) const {
     const bool rests = p.record[R::piece] == T(wall);
@@ -274,7 +275,7 @@ struct Touch {
     V work{};
     for (int a = 0; a < Dim; ++a) {
       force[a] += drag * slide[a];
-      work += drag * slide[a] * slide[a];
+      work += drag * slide[a] * (R::split ? V(slide[a] - dv[a]) : slide[a]);
     }
     return T(0.5) * work;
   }

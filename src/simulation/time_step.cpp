@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 #include "base/errors.hpp"
 #include "base/parallel.hpp"
@@ -13,21 +12,6 @@
 #include "simulation/stages.hpp"
 
 namespace ejecta {
-
-namespace {
-
-/// Smoothing length at the start by body [m]; infinite where gradients are not corrected.
-template <int Dim>
-std::vector<double> crossings_at_start(const Simulation<Dim>& sim) {
-  const bool corrected = corrects_gradients(sim.scene, sim.materials);
-  std::vector<double> lengths;
-  for (const Body& body : sim.scene.bodies)
-    lengths.push_back(corrected ? sim.scene.numerics.nodes_per_h * sim.scene.spacing * body.spacing_factor
-                                : std::numeric_limits<double>::infinity());
-  return lengths;
-}
-
-}  // namespace
 
 template <int Dim>
 TimeStepVote vote_time_step(const Simulation<Dim>& sim) {
@@ -41,10 +25,11 @@ TimeStepVote vote_time_step(const Simulation<Dim>& sim) {
   // than at the start: a particle with few neighbours widens h, but those that it has are as near as before, and as
   // stiff.
   const bool tensor = p.has(Field::smoothing_metric);
-  const std::vector<double> longest = crossings_at_start(sim);
+  const double longest =
+      corrects_gradients(sim.scene, sim.materials) ? numerics.nodes_per_h * sim.scene.spacing : never;
   const auto body = p.label(Label::body);
   auto within = [&](std::size_t i, double length) {
-    return std::min(length, longest[static_cast<std::size_t>(body[i])]);
+    return std::min(length, longest * sim.scene.bodies[static_cast<std::size_t>(body[i])].spacing_factor);
   };
   auto crossing = [&](std::size_t i) {
     return within(i, tensor ? axes_of<Dim>(p.symmetric(Field::smoothing_metric, i)).shortest : h[i]);
