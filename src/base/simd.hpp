@@ -199,7 +199,6 @@ template <>
 struct WideSum<double> {
   Doubles sum{};
   void add(double weight, Doubles value) { sum += weight * value; }
-  void add_product(double weight, Doubles a, Doubles b) { sum += weight * (a * b); }
   double lane(int k) const { return sum[k]; }
 };
 template <>
@@ -208,11 +207,6 @@ struct WideSum<float> {
   void add(double weight, Floats value) {
     low += weight * lower(value);
     high += weight * upper(value);
-  }
-  /// The product itself is not rounded to single precision.
-  void add_product(double weight, Floats a, Floats b) {
-    low += weight * (lower(a) * lower(b));
-    high += weight * (upper(a) * upper(b));
   }
 #if defined(__AVX512F__)
   static Doubles lower(Floats v) { return (Doubles)_mm512_cvtps_pd(_mm512_castps512_ps256((__m512)v)); }

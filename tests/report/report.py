@@ -77,7 +77,7 @@ def main():
     parser.add_argument("--only", metavar="WORDS", help=f"cases and parts, such as sod,precision. "
                                                          f"Parts: {', '.join(PARTS)}")
     parser.add_argument("--survival", nargs="?", const="2d", choices=tuple(SETS),
-                        help="in place of all this: impacts of every material into every other. quick: forty of them; "
+                        help="in place of all this: impacts of every material into every other. quick: 44 of them; "
                              "2d (default): discs, minutes; all: spheres, asph, tensor damage, mixed precision too")
     parser.add_argument("--survival-program", help=argparse.SUPPRESS)
     parser.add_argument("--draw", action="store_true", help="run nothing; draw again what is in the folder")
