@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "particles/channel.hpp"
+#include "model/channel.hpp"
 #include "particles/particles.hpp"
 
 namespace ejecta {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/types.hpp"
-#include "particles/channel.hpp"
+#include "model/channel.hpp"
 
 namespace ejecta {
 

@@ -24,7 +24,7 @@ ParticleView particle_view(const Particles<Dim>& p) {
 }
 
 template <int Dim>
-FragmentInput fragment_input(const Simulation<Dim>& sim) {
+FragmentInput fragment_input(const Sph<Dim>& sim) {
   const Particles<Dim>& p = sim.particles;
   const Boundary& boundary = sim.scene.boundary;
   FragmentInput in;
@@ -103,7 +103,7 @@ Channel FrameChannels<Dim>::fragment_channel(const FragmentTable& table, std::si
 }
 
 template <int Dim>
-std::vector<Channel> FrameChannels<Dim>::update(const Simulation<Dim>& sim, const SampledImage& slice, double plane_y,
+std::vector<Channel> FrameChannels<Dim>::update(const Sph<Dim>& sim, const SampledImage& slice, double plane_y,
                                                 const std::optional<FragmentTable>& fragments) {
   std::vector<Channel> all{particle_channel(sim.particles, fragments), image_channel(slice, "slice")};
   if (Channel& image = all.back(); Dim == 3) {  // the picture plane is x-z in space
@@ -119,11 +119,11 @@ std::vector<Channel> FrameChannels<Dim>::update(const Simulation<Dim>& sim, cons
 
 template FieldView field_view<2>(const Particles<2>&, Field);
 template ParticleView particle_view<2>(const Particles<2>&);
-template FragmentInput fragment_input<2>(const Simulation<2>&);
+template FragmentInput fragment_input<2>(const Sph<2>&);
 template class FrameChannels<2>;
 template FieldView field_view<3>(const Particles<3>&, Field);
 template ParticleView particle_view<3>(const Particles<3>&);
-template FragmentInput fragment_input<3>(const Simulation<3>&);
+template FragmentInput fragment_input<3>(const Sph<3>&);
 template class FrameChannels<3>;
 
 }  // namespace ejecta

@@ -7,8 +7,8 @@
 
 #include "render/ellipsoids.hpp"
 #include "render/sampling.hpp"
-#include "simulation/fragments.hpp"
-#include "simulation/simulation.hpp"
+#include "analysis/fragments.hpp"
+#include "sph/sph.hpp"
 
 namespace ejecta {
 
@@ -22,7 +22,7 @@ ParticleView particle_view(const Particles<Dim>& particles);
 
 /// The columns of a simulation as fragments see them.
 template <int Dim>
-FragmentInput fragment_input(const Simulation<Dim>& sim);
+FragmentInput fragment_input(const Sph<Dim>& sim);
 
 /// The channels of one frame. They point into the simulation, the slice, the fragments and this object, which keeps the
 /// derived columns.
@@ -31,7 +31,7 @@ class FrameChannels {
  public:
   /// particles, slice, ellipsoids and, where there is a table of them, fragments. `plane_y` [m]: of slice and
   /// ellipsoids.
-  std::vector<Channel> update(const Simulation<Dim>& sim, const SampledImage& slice, double plane_y,
+  std::vector<Channel> update(const Sph<Dim>& sim, const SampledImage& slice, double plane_y,
                               const std::optional<FragmentTable>& fragments);
 
  private:

@@ -8,23 +8,21 @@
 
 namespace ejecta {
 
-/// Every column of the simulation, with what else it must remember. Valid while the simulation is untouched.
-template <int Dim>
-CheckpointView checkpoint_view(const Simulation<Dim>& sim, const std::string& resolved);
+/// All that the packages persist. Valid while the simulation is untouched.
+CheckpointView checkpoint_view(const Simulation& sim, const std::string& resolved);
 
 /// Puts a freshly set-up simulation of the same scene into the state of the checkpoint. Throws InputError if the
 /// checkpoint belongs to another scene.
-template <int Dim>
-void restore(Simulation<Dim>& sim, const Checkpoint& checkpoint);
+void restore(Simulation& sim, const Checkpoint& checkpoint);
 
-template <int Dim>
-class Checkpoints final : public Observer<Dim> {
+/// Size of a full dump [bytes].
+double dump_bytes(const Simulation& sim);
+
+class Checkpoints final : public Observer {
  public:
   Checkpoints(std::filesystem::path folder, std::string resolved, const Scene& scene);
   double next_time() const override { return next_snapshot_; }
-  void observe(Simulation<Dim>& sim, bool last) override;
-  /// Bytes of a full dump of all columns [bytes].
-  static double dump_bytes(const Simulation<Dim>& sim);
+  void observe(Simulation& sim, bool last) override;
 
  private:
   using clock = std::chrono::steady_clock;

@@ -76,7 +76,7 @@ std::map<std::string, ColourRange> default_ranges(const Scene& scene, const std:
 }
 
 template <int Dim>
-Frames<Dim>::Frames(const Simulation<Dim>& sim, std::filesystem::path folder, bool catalyst)
+Frames<Dim>::Frames(const Sph<Dim>& sim, std::filesystem::path folder, bool catalyst)
     : folder_(std::move(folder)),
       view_(choose_view(sim.scene)),
       ranges_(default_ranges(sim.scene, sim.materials, sim.outset)) {
@@ -115,14 +115,14 @@ double Frames<Dim>::next_time() const {
 }
 
 template <int Dim>
-void Frames<Dim>::resume(Simulation<Dim>& sim) {
+void Frames<Dim>::resume(Sph<Dim>& sim) {
   const double interval = sim.scene.time_end / (sim.scene.insitu.frames - 1);
   while (next_ <= sim.clock.time) next_ += interval;
   if (sim.scene.fragments.enabled) find_fragments(sim);
 }
 
 template <int Dim>
-void Frames<Dim>::observe(Simulation<Dim>& sim, bool last) {
+void Frames<Dim>::observe(Sph<Dim>& sim, bool last) {
   const double interval = sim.scene.time_end / (sim.scene.insitu.frames - 1);
   const bool due = sim.clock.time >= next_ - 1e-9 * interval;
   if ((!due && !last) || sim.clock.step == last_drawn_) return;
@@ -150,7 +150,7 @@ void Frames<Dim>::observe(Simulation<Dim>& sim, bool last) {
 /// Doubles the time between frames once in-situ work takes more than its share of the wall time. Steps still end at the
 /// times of the frames passed over, so that the result of a run does not depend on the speed of the machine.
 template <int Dim>
-void Frames<Dim>::govern(const Simulation<Dim>& sim) {
+void Frames<Dim>::govern(const Sph<Dim>& sim) {
   const double spent = insitu_seconds(sim.timers);
   if (frame_++ == 0) {  // the first frame pays for starting the renderer: judge what comes after it
     insitu_before_ = spent;
@@ -182,12 +182,12 @@ double insitu_seconds(const StageTimers& timers) {
 }
 
 template <int Dim>
-void Frames<Dim>::find_fragments(Simulation<Dim>& sim) {
+void Frames<Dim>::find_fragments(Sph<Dim>& sim) {
   fragments_ = tracker_.update(fragment_input(sim), sim.scene.fragments);
 }
 
 template <int Dim>
-void Frames<Dim>::sample(const Simulation<Dim>& sim) {
+void Frames<Dim>::sample(const Sph<Dim>& sim) {
   const Particles<Dim>& p = sim.particles;
   const ParticleView view = particle_view(p);
   std::vector<FieldView> fields;
@@ -209,7 +209,7 @@ void Frames<Dim>::sample(const Simulation<Dim>& sim) {
 
 /// Writes a picture by Ejecta's own painter.
 template <int Dim>
-void Frames<Dim>::paint(const Simulation<Dim>& sim, std::string_view name, const PixelGrid& grid,
+void Frames<Dim>::paint(const Sph<Dim>& sim, std::string_view name, const PixelGrid& grid,
                         std::span<const Panel> panels) {
   const std::filesystem::path file = folder_ / "images" / fmt::format("{}_{:06d}.png", name, sim.clock.step);
   write_panels(file, sim.scene.insitu.image_width, sim.scene.insitu.image_height, grid, panels,
@@ -217,7 +217,7 @@ void Frames<Dim>::paint(const Simulation<Dim>& sim, std::string_view name, const
 }
 
 template <int Dim>
-void Frames<Dim>::draw_with_catalyst(Simulation<Dim>& sim) {
+void Frames<Dim>::draw_with_catalyst(Sph<Dim>& sim) {
   const std::vector<Channel> all = channels_.update(sim, slice_, view_.center[1], fragments_);
   const FrameReport report = bridge_->execute(sim.clock.step, sim.clock.time, all);
   images_ += static_cast<int>(report.images.size());
@@ -228,7 +228,7 @@ void Frames<Dim>::draw_with_catalyst(Simulation<Dim>& sim) {
 }
 
 template <int Dim>
-void Frames<Dim>::draw_without_gl(const Simulation<Dim>& sim) {
+void Frames<Dim>::draw_without_gl(const Sph<Dim>& sim) {
   std::vector<Panel> panels;
   std::vector<std::vector<double>> magnitudes;
   magnitudes.reserve(slice_.fields.size());
@@ -256,7 +256,7 @@ void Frames<Dim>::draw_without_gl(const Simulation<Dim>& sim) {
 }
 
 template <int Dim>
-void Frames<Dim>::collect_compaction(const Simulation<Dim>& sim) {
+void Frames<Dim>::collect_compaction(const Sph<Dim>& sim) {
   const Particles<Dim>& p = sim.particles;
   for (std::size_t m = 0; m < sim.materials.size(); ++m) {
     if (!sim.materials[m].porosity) continue;
@@ -274,7 +274,7 @@ void Frames<Dim>::collect_compaction(const Simulation<Dim>& sim) {
 }
 
 template <int Dim>
-void Frames<Dim>::write_compaction_tables(const Simulation<Dim>& sim) const {
+void Frames<Dim>::write_compaction_tables(const Sph<Dim>& sim) const {
   for (const Material& material : sim.materials) {
     if (!material.porosity) continue;
     const CrushCurve& curve = material.porosity->curve;

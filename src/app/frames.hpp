@@ -9,8 +9,8 @@
 #include "insitu/image_index.hpp"
 #include "render/image.hpp"
 #include "render/sampling.hpp"
-#include "simulation/fragments.hpp"
-#include "simulation/simulation.hpp"
+#include "analysis/fragments.hpp"
+#include "sph/sph.hpp"
 
 namespace ejecta {
 
@@ -33,10 +33,10 @@ template <int Dim>
 class Frames final : public Observer<Dim> {
  public:
   /// With `catalyst` images are drawn by the pipelines, otherwise by Ejecta's own painter.
-  Frames(const Simulation<Dim>& sim, std::filesystem::path folder, bool catalyst);
+  Frames(const Sph<Dim>& sim, std::filesystem::path folder, bool catalyst);
 
   double next_time() const override;
-  void observe(Simulation<Dim>& sim, bool last) override;
+  void observe(Sph<Dim>& sim, bool last) override;
 
   /// Fragments as of the last frame; nothing if the scene does not ask for them.
   const std::optional<FragmentTable>& fragments() const { return fragments_; }
@@ -46,17 +46,17 @@ class Frames final : public Observer<Dim> {
   int images() const { return images_; }
   int drawn() const { return drawn_; }  ///< frames so far
   /// After a restart: the next frame is the first one later than the checkpoint.
-  void resume(Simulation<Dim>& sim);
+  void resume(Sph<Dim>& sim);
 
  private:
-  void find_fragments(Simulation<Dim>& sim);
-  void sample(const Simulation<Dim>& sim);
-  void draw_with_catalyst(Simulation<Dim>& sim);
-  void draw_without_gl(const Simulation<Dim>& sim);
-  void paint(const Simulation<Dim>& sim, std::string_view name, const PixelGrid& grid, std::span<const Panel> panels);
-  void govern(const Simulation<Dim>& sim);
-  void collect_compaction(const Simulation<Dim>& sim);
-  void write_compaction_tables(const Simulation<Dim>& sim) const;
+  void find_fragments(Sph<Dim>& sim);
+  void sample(const Sph<Dim>& sim);
+  void draw_with_catalyst(Sph<Dim>& sim);
+  void draw_without_gl(const Sph<Dim>& sim);
+  void paint(const Sph<Dim>& sim, std::string_view name, const PixelGrid& grid, std::span<const Panel> panels);
+  void govern(const Sph<Dim>& sim);
+  void collect_compaction(const Sph<Dim>& sim);
+  void write_compaction_tables(const Sph<Dim>& sim) const;
 
   std::filesystem::path folder_;
   View view_;

@@ -9,7 +9,7 @@
 #include "render/movie.hpp"
 #include "scene/scene_reader.hpp"
 #include "scene/units.hpp"
-#include "simulation/stages.hpp"
+#include "sph/stages.hpp"
 
 namespace ejecta {
 

@@ -11,8 +11,8 @@
 #include "base/errors.hpp"
 #include "base/parallel.hpp"
 #include "schemes/kernels.hpp"
-#include "simulation/shapes.hpp"
-#include "simulation/stages.hpp"
+#include "sph/shapes.hpp"
+#include "sph/stages.hpp"
 
 namespace ejecta {
 
@@ -98,13 +98,13 @@ void check_memory(const Scene& scene, const std::vector<Material>& materials) {
 }
 
 template <int Dim>
-std::size_t memory_bytes(const Simulation<Dim>& sim) {
+std::size_t memory_bytes(const Sph<Dim>& sim) {
   return sim.particles.bytes() + sim.lists.bytes() + sim.pass->bytes() + sim.intact.capacity() * sizeof(double) +
          sim.order.capacity() * sizeof(std::uint32_t) + sim.shape_scratch.bytes();
 }
 
 template <int Dim>
-double mean_neighbours(const Simulation<Dim>& sim) {
+double mean_neighbours(const Sph<Dim>& sim) {
   const double radius = kernel_support(sim.scene.numerics.kernel);
   const auto sum = sim.particles.column(Field::neighbour_sum);
   const double unit_ball = Dim == 2 ? std::numbers::pi : 4 * std::numbers::pi / 3;
@@ -124,9 +124,9 @@ std::string timer_table(const StageTimers& timers) {
   return text;
 }
 
-template std::size_t memory_bytes<2>(const Simulation<2>&);
-template std::size_t memory_bytes<3>(const Simulation<3>&);
-template double mean_neighbours<2>(const Simulation<2>&);
-template double mean_neighbours<3>(const Simulation<3>&);
+template std::size_t memory_bytes<2>(const Sph<2>&);
+template std::size_t memory_bytes<3>(const Sph<3>&);
+template double mean_neighbours<2>(const Sph<2>&);
+template double mean_neighbours<3>(const Sph<3>&);
 
 }  // namespace ejecta

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "simulation/simulation.hpp"
+#include "sph/sph.hpp"
 
 namespace ejecta {
 
@@ -22,10 +22,10 @@ void check_memory(const Scene& scene, const std::vector<Material>& materials);
 
 /// Memory of columns, lists and records [bytes].
 template <int Dim>
-std::size_t memory_bytes(const Simulation<Dim>& sim);
+std::size_t memory_bytes(const Sph<Dim>& sim);
 /// Mean number of neighbours within the support, from the effective n_h of each particle.
 template <int Dim>
-double mean_neighbours(const Simulation<Dim>& sim);
+double mean_neighbours(const Sph<Dim>& sim);
 
 /// The stage timers as a table: seconds, share, calls.
 std::string timer_table(const StageTimers& timers);

@@ -67,7 +67,7 @@ void prepare_folder(const Job& job) {
 }
 
 template <int Dim>
-std::vector<BodySummary> summarise_bodies(const Simulation<Dim>& sim, const Frames<Dim>& frames) {
+std::vector<BodySummary> summarise_bodies(const Sph<Dim>& sim, const Frames<Dim>& frames) {
   const FragmentContext context = fragment_context(sim);
   std::vector<BodySummary> bodies(context.bodies.size());
   for (std::size_t b = 0; b < bodies.size(); ++b) {
@@ -92,7 +92,7 @@ std::vector<BodySummary> summarise_bodies(const Simulation<Dim>& sim, const Fram
 }
 
 template <int Dim>
-Summary summarise(const Simulation<Dim>& sim, const Frames<Dim>& frames, const fs::path& folder, int exit_code) {
+Summary summarise(const Sph<Dim>& sim, const Frames<Dim>& frames, const fs::path& folder, int exit_code) {
   Summary s;
   const ConservationErrors errors = conservation_errors(sim.initial, totals(sim.particles), sim.external);
   const double n = static_cast<double>(sim.particles.size()), steps = static_cast<double>(sim.clock.step);
@@ -140,7 +140,7 @@ Summary summarise(const Simulation<Dim>& sim, const Frames<Dim>& frames, const f
 
 /// Everything that is written once, when the run is over for whatever reason.
 template <int Dim>
-void conclude(Simulation<Dim>& sim, const Frames<Dim>& frames, const Job& job, int exit_code) {
+void conclude(Sph<Dim>& sim, const Frames<Dim>& frames, const Job& job, int exit_code) {
   if (frames.fragments()) {
     const FragmentContext context = fragment_context(sim);
     write_fragments(job.folder / "fragments.csv", *frames.fragments(), context);

@@ -23,7 +23,7 @@ std::string hours(double seconds) {
 }  // namespace
 
 template <int Dim>
-FragmentContext fragment_context(const Simulation<Dim>& sim) {
+FragmentContext fragment_context(const Sph<Dim>& sim) {
   FragmentContext context;
   context.dimension = Dim;
   context.target = target_body(sim.scene, sim.outset.bodies);
@@ -38,7 +38,7 @@ FragmentContext fragment_context(const Simulation<Dim>& sim) {
 }
 
 template <int Dim>
-HistoryRow history_row(const Simulation<Dim>& sim, const std::optional<FragmentTable>& fragments) {
+HistoryRow history_row(const Sph<Dim>& sim, const std::optional<FragmentTable>& fragments) {
   const Particles<Dim>& p = sim.particles;
   const Totals now = totals(p);
   HistoryRow row;
@@ -83,7 +83,7 @@ HistoryRow history_row(const Simulation<Dim>& sim, const std::optional<FragmentT
 }
 
 template <int Dim>
-Tables<Dim>::Tables(const Simulation<Dim>& sim, const std::filesystem::path& folder, Frames<Dim>& frames,
+Tables<Dim>::Tables(const Sph<Dim>& sim, const std::filesystem::path& folder, Frames<Dim>& frames,
                     std::optional<double> resume_at)
     : interval_(is_set(sim.scene.output.history_interval) ? sim.scene.output.history_interval
                                                           : sim.scene.time_end / 200),
@@ -94,7 +94,7 @@ Tables<Dim>::Tables(const Simulation<Dim>& sim, const std::filesystem::path& fol
 }
 
 template <int Dim>
-void Tables<Dim>::observe(Simulation<Dim>& sim, bool last) {
+void Tables<Dim>::observe(Sph<Dim>& sim, bool last) {
   if (sim.clock.time < next_ && !last) return;
   while (next_ <= sim.clock.time) next_ += interval_;
   sim.timers.time("tables", [&] {
@@ -109,7 +109,7 @@ void Tables<Dim>::observe(Simulation<Dim>& sim, bool last) {
 }
 
 template <int Dim>
-void Progress<Dim>::observe(Simulation<Dim>& sim, bool last) {
+void Progress<Dim>::observe(Sph<Dim>& sim, bool last) {
   const auto now = clock::now();
   if (start_time_ < 0) {
     start_time_ = sim.clock.time;
@@ -135,10 +135,10 @@ void Progress<Dim>::observe(Simulation<Dim>& sim, bool last) {
   shown_ = now;
 }
 
-template HistoryRow history_row<2>(const Simulation<2>&, const std::optional<FragmentTable>&);
-template HistoryRow history_row<3>(const Simulation<3>&, const std::optional<FragmentTable>&);
-template FragmentContext fragment_context<2>(const Simulation<2>&);
-template FragmentContext fragment_context<3>(const Simulation<3>&);
+template HistoryRow history_row<2>(const Sph<2>&, const std::optional<FragmentTable>&);
+template HistoryRow history_row<3>(const Sph<3>&, const std::optional<FragmentTable>&);
+template FragmentContext fragment_context<2>(const Sph<2>&);
+template FragmentContext fragment_context<3>(const Sph<3>&);
 template class Tables<2>;
 template class Tables<3>;
 template class Progress<2>;

@@ -6,25 +6,25 @@
 #include "app/frames.hpp"
 #include "output/fragment_files.hpp"
 #include "output/history.hpp"
-#include "simulation/simulation.hpp"
+#include "sph/sph.hpp"
 
 namespace ejecta {
 
 /// One row of history.csv for the present state.
 template <int Dim>
-HistoryRow history_row(const Simulation<Dim>& sim, const std::optional<FragmentTable>& fragments);
+HistoryRow history_row(const Sph<Dim>& sim, const std::optional<FragmentTable>& fragments);
 
 /// What the fragment tables are told about the run.
 template <int Dim>
-FragmentContext fragment_context(const Simulation<Dim>& sim);
+FragmentContext fragment_context(const Sph<Dim>& sim);
 
 template <int Dim>
 class Tables final : public Observer<Dim> {
  public:
-  Tables(const Simulation<Dim>& sim, const std::filesystem::path& folder, Frames<Dim>& frames,
+  Tables(const Sph<Dim>& sim, const std::filesystem::path& folder, Frames<Dim>& frames,
          std::optional<double> resume_at);
   double next_time() const override { return std::numeric_limits<double>::infinity(); }
-  void observe(Simulation<Dim>& sim, bool last) override;
+  void observe(Sph<Dim>& sim, bool last) override;
 
  private:
   double interval_;
@@ -40,7 +40,7 @@ template <int Dim>
 class Progress final : public Observer<Dim> {
  public:
   double next_time() const override { return std::numeric_limits<double>::infinity(); }
-  void observe(Simulation<Dim>& sim, bool last) override;
+  void observe(Sph<Dim>& sim, bool last) override;
 
  private:
   using clock = std::chrono::steady_clock;

@@ -5,7 +5,7 @@
 namespace ejecta {
 
 template <int Dim>
-Watch<Dim>::Watch(const Simulation<Dim>& sim, std::filesystem::path folder, const Frames<Dim>& frames)
+Watch<Dim>::Watch(const Sph<Dim>& sim, std::filesystem::path folder, const Frames<Dim>& frames)
     : folder_(std::move(folder)),
       frames_(frames),
       monitor_(folder_),
@@ -20,7 +20,7 @@ Watch<Dim>::Watch(const Simulation<Dim>& sim, std::filesystem::path folder, cons
 }
 
 template <int Dim>
-void Watch<Dim>::gather(const Simulation<Dim>& sim) {
+void Watch<Dim>::gather(const Sph<Dim>& sim) {
   const HistoryRow row = history_row(sim, frames_.fragments());
   status_.step = row.step;
   status_.time = row.time;
@@ -51,7 +51,7 @@ void Watch<Dim>::gather(const Simulation<Dim>& sim) {
 }
 
 template <int Dim>
-void Watch<Dim>::observe(Simulation<Dim>& sim, bool) {
+void Watch<Dim>::observe(Sph<Dim>& sim, bool) {
   if (!monitor_.due()) return;
   sim.timers.time("monitor", [&] {
     gather(sim);
@@ -60,7 +60,7 @@ void Watch<Dim>::observe(Simulation<Dim>& sim, bool) {
 }
 
 template <int Dim>
-void Watch<Dim>::conclude(const Simulation<Dim>& sim, RunState state) {
+void Watch<Dim>::conclude(const Sph<Dim>& sim, RunState state) {
   gather(sim);
   status_.state = state;
   monitor_.update(status_, true);

@@ -5,21 +5,21 @@
 #include "app/frames.hpp"
 #include "output/fragment_files.hpp"
 #include "output/monitor.hpp"
-#include "simulation/simulation.hpp"
+#include "sph/sph.hpp"
 
 namespace ejecta {
 
 template <int Dim>
 class Watch final : public Observer<Dim> {
  public:
-  Watch(const Simulation<Dim>& sim, std::filesystem::path folder, const Frames<Dim>& frames);
+  Watch(const Sph<Dim>& sim, std::filesystem::path folder, const Frames<Dim>& frames);
   double next_time() const override { return std::numeric_limits<double>::infinity(); }
-  void observe(Simulation<Dim>& sim, bool last) override;
+  void observe(Sph<Dim>& sim, bool last) override;
   /// The last word of the run.
-  void conclude(const Simulation<Dim>& sim, RunState state);
+  void conclude(const Sph<Dim>& sim, RunState state);
 
  private:
-  void gather(const Simulation<Dim>& sim);
+  void gather(const Sph<Dim>& sim);
 
   std::filesystem::path folder_;
   const Frames<Dim>& frames_;

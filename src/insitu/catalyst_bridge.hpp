@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "insitu/pipelines.hpp"
-#include "particles/channel.hpp"
+#include "model/channel.hpp"
 
 namespace ejecta {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "particles/channel.hpp"
+#include "model/channel.hpp"
 #include "scene/scene.hpp"
 
 namespace ejecta {

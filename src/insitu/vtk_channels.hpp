@@ -7,7 +7,7 @@
 #include <map>
 #include <string>
 
-#include "particles/channel.hpp"
+#include "model/channel.hpp"
 
 class vtkCellArray;
 

@@ -24,6 +24,9 @@ const typename Map::mapped_type& found(const Map& map, const std::string& name, 
   return entry->second;
 }
 
+/// "grid." of "grid.pressure"; empty without a dot.
+std::string prefix_of(const std::string& name) { return name.substr(0, name.find('.') + 1); }
+
 /// Checkpoints of a folder, oldest first: the zero-padded step sorts by name.
 std::vector<fs::path> checkpoints_in(const fs::path& folder) {
   std::vector<fs::path> files;
@@ -41,6 +44,13 @@ std::vector<fs::path> checkpoints_in(const fs::path& folder) {
 const std::vector<double>& Checkpoint::column(const std::string& name) const { return found(columns, name, *this); }
 const std::vector<std::int32_t>& Checkpoint::label(const std::string& name) const { return found(labels, name, *this); }
 double Checkpoint::scalar(const std::string& name) const { return found(scalars, name, *this); }
+std::size_t Checkpoint::size(const std::string& prefix) const {
+  for (const auto& [name, values] : columns)
+    if (prefix_of(name) == prefix) return values.size();
+  for (const auto& [name, values] : labels)
+    if (prefix_of(name) == prefix) return values.size();
+  return 0;
+}
 
 void write_checkpoint(const fs::path& file, const CheckpointView& view) {
   {
@@ -89,16 +99,15 @@ Checkpoint read_checkpoint(const fs::path& file) {
   for (const std::string& name : in.names("/columns")) checkpoint.columns[name] = in.read_doubles("/columns/" + name);
   for (const std::string& name : in.names("/labels")) checkpoint.labels[name] = in.read_integers("/labels/" + name);
 
-  std::optional<std::size_t> length;
+  std::map<std::string, std::size_t> lengths;
   const auto check = [&](const std::string& name, std::size_t size) {
-    if (length.value_or(size) != size)
+    const std::size_t length = lengths.try_emplace(prefix_of(name), size).first->second;
+    if (length != size)
       throw InputError(
-          fmt::format("{}: \"{}\" holds {} values where other columns hold {}", file.string(), name, size, *length));
-    length = size;
+          fmt::format("{}: \"{}\" holds {} values where other columns hold {}", file.string(), name, size, length));
   };
   for (const auto& [name, values] : checkpoint.columns) check(name, values.size());
   for (const auto& [name, values] : checkpoint.labels) check(name, values.size());
-  checkpoint.particles = length.value_or(0);
   return checkpoint;
 }
 

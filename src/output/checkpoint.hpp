@@ -17,7 +17,8 @@ struct NamedColumn {
   std::span<const T> values;
 };
 
-/// What is to be written. All columns have the same length; nothing is copied.
+/// What is to be written. Columns and labels of one prefix ("grid." of "grid.pressure", or none) have the same length;
+/// nothing is copied.
 struct CheckpointView {
   double time = 0, dt = 0;  ///< s
   std::int64_t step = 0;
@@ -32,7 +33,6 @@ struct Checkpoint {
   std::filesystem::path file;
   double time = 0, dt = 0;
   std::int64_t step = 0;
-  std::size_t particles = 0;
   std::map<std::string, double> scalars;
   std::string scene;
   std::map<std::string, std::vector<double>> columns;
@@ -42,6 +42,8 @@ struct Checkpoint {
   const std::vector<double>& column(const std::string& name) const;
   const std::vector<std::int32_t>& label(const std::string& name) const;
   double scalar(const std::string& name) const;
+  /// Length of the columns and labels of a prefix; 0 if there are none.
+  std::size_t size(const std::string& prefix) const;
 };
 
 /// Writes one file atomically. Throws InputError if it cannot be written.

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "output/csv.hpp"
-#include "simulation/fragments.hpp"
+#include "analysis/fragments.hpp"
 
 namespace ejecta {
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "scene/document.hpp"
+#include "scene/section.hpp"
 
 namespace ejecta {
 
@@ -147,7 +148,8 @@ struct Scene {
   FragmentSettings fragments;
   OutputSettings output;
   std::map<std::string, Document> materials;  ///< material name -> values that replace those of its file
-  int threads = 0;                            ///< 0: all cores
+  std::map<std::string, std::shared_ptr<SectionSettings>> sections;  ///< of packages, by name: those in the file
+  int threads = 0;                                                   ///< 0: all cores
   std::uint64_t seed = 1;
 };
 

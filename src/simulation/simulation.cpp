@@ -2,64 +2,129 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
-#include <limits>
+#include <cmath>
+#include <span>
 
 #include "base/errors.hpp"
-#include "simulation/integrator.hpp"
-#include "simulation/time_step.hpp"
 
 namespace ejecta {
 
 namespace {
+
 /// A step this much shorter than the run is a run that does not end.
 constexpr double least_relative_step = 1e-10;
 constexpr std::int64_t steps_between_energy_checks = 20;
-}  // namespace
 
-template <int Dim>
-void evaluate(Simulation<Dim>& sim) {
-  for (const Stage<Dim>& stage : sim.stages) {
-    sim.timers.time(stage.name, [&] { stage.run(sim); });
-  }
+using Packages = std::span<Package* const>;
+
+struct Winner {
+  Vote vote;
+  const Package* voter = nullptr;
+};
+
+Winner count_votes(Packages packages) {
+  Winner winner;
+  for (Package* package : packages)
+    if (const Vote vote = package->vote(); !winner.voter || vote.dt < winner.vote.dt) winner = {vote, package};
+  return winner;
 }
 
-template <int Dim>
-void step(Simulation<Dim>& sim, double dt_limit) {
-  Clock& clock = sim.clock;
-  sim.timers.time("time step", [&] { sim.vote = vote_time_step(sim); });
-  if (!(sim.vote.dt > least_relative_step * sim.scene.time_end))
-    throw SimulationError(fmt::format("time {:.6g} s, step {}: the time step has collapsed to {:.3g} s by the {} of {}",
-                                      clock.time, clock.step, sim.vote.dt, sim.vote.reason,
-                                      sim.vote.particle < sim.particles.size()
-                                          ? describe_particle(sim, sim.vote.particle)
-                                          : std::string("no particle")));
-  const double dt = std::min(sim.vote.dt, dt_limit);
-  sim.timers.time("integration", [&] { predict(sim.particles, dt, clock.dt); });
+void check_energy(Packages packages, const Clock& clock, double most) {
+  Totals initial, now;
+  ExternalLoad load;
+  for (const Package* package : packages) {
+    initial += package->initial;
+    now += package->conserved();
+    load += package->external;
+  }
+  const double drift = conservation_errors(initial, now, load).energy;
+  if (!(std::abs(drift) <= most))  // so that no number at all is caught too
+    throw SimulationError(
+        fmt::format("time {:.6g} s, step {}: total energy has drifted by {:.3g} of its value "
+                    "(numerics.max_energy_drift = {:.3g})",
+                    clock.time, clock.step, drift, most));
+}
+
+Winner step_together(Packages packages, Clock& clock, StageTimers& timers, const Scene& scene, double dt_limit) {
+  const Winner winner = count_votes(packages);
+  if (!(winner.vote.dt > least_relative_step * scene.time_end))
+    throw SimulationError(fmt::format(
+        "time {:.6g} s, step {}: the time step has collapsed to {:.3g} s by the {} of {}", clock.time, clock.step,
+        winner.vote.dt, winner.vote.reason,
+        winner.vote.culprit == Vote::nobody ? "nobody in particular" : winner.voter->describe(winner.vote.culprit)));
+  const double dt = std::min(winner.vote.dt, dt_limit);
   clock.dt = dt;
   clock.time += dt;
   ++clock.step;
-  const ExternalLoad before = sim.external;
-  evaluate(sim);
-  sim.timers.time("integration", [&] { correct(sim.particles, dt); });
-  add_step(sim.external, before, sim.external, dt);
-  sim.timers.time("health", [&] {
-    check_health(sim, "correction");
-    if (clock.step % steps_between_energy_checks != 0) return;
-    const double drift = conservation_errors(sim.initial, totals(sim.particles), sim.external).energy;
-    if (!(std::abs(drift) <= sim.scene.numerics.max_energy_drift))  // so that no number at all is caught too
-      throw SimulationError(
-          fmt::format("time {:.6g} s, step {}: total energy has drifted by {:.3g} of its value "
-                      "(numerics.max_energy_drift = {:.3g})",
-                      clock.time, clock.step, drift, sim.scene.numerics.max_energy_drift));
+  for (Package* package : packages) package->advance(dt);
+  timers.time("health", [&] {
+    for (const Package* package : packages) package->check_health();
+    if (clock.step % steps_between_energy_checks == 0) check_energy(packages, clock, scene.numerics.max_energy_drift);
   });
+  return winner;
 }
 
-template <int Dim>
-bool run(Simulation<Dim>& sim, const std::vector<Observer<Dim>*>& observers, bool (*stop)()) {
+std::vector<Package*> pointers(const Simulation& sim) {
+  std::vector<Package*> list;
+  for (const auto& package : sim.packages) list.push_back(package.get());
+  return list;
+}
+
+}  // namespace
+
+Totals initial(const Simulation& sim) {
+  Totals sum;
+  for (const auto& package : sim.packages) sum += package->initial;
+  return sum;
+}
+
+Totals conserved(const Simulation& sim) {
+  Totals sum;
+  for (const auto& package : sim.packages) sum += package->conserved();
+  return sum;
+}
+
+ExternalLoad external(const Simulation& sim) {
+  ExternalLoad sum;
+  for (const auto& package : sim.packages) sum += package->external;
+  return sum;
+}
+
+Kept kept(const Simulation& sim) {
+  Kept all;
+  for (const auto& package : sim.packages) {
+    all.momentum &= package->kept().momentum;
+    all.angular_momentum &= package->kept().angular_momentum;
+  }
+  return all;
+}
+
+std::vector<StageTimers::Entry> wall_times(const Simulation& sim) {
+  std::vector<StageTimers::Entry> all;
+  for (const auto& package : sim.packages)
+    all.insert(all.end(), package->timers.entries().begin(), package->timers.entries().end());
+  all.insert(all.end(), sim.timers.entries().begin(), sim.timers.entries().end());
+  return all;
+}
+
+void step(Simulation& sim, double dt_limit) {
+  const Winner winner = step_together(pointers(sim), sim.clock, sim.timers, sim.scene, dt_limit);
+  sim.vote = winner.vote;
+  sim.voter = winner.voter;
+}
+
+Vote step(Package& package, const Scene& scene, double dt_limit) {
+  Package* const alone[] = {&package};
+  Clock clock = package.clock;
+  return step_together(alone, clock, package.timers, scene, dt_limit).vote;
+}
+
+bool run(Simulation& sim, const std::vector<Observer*>& observers, bool (*stop)()) {
   const double end = sim.scene.time_end, round_off = 1e-12 * end;
   auto observe = [&](bool last) {
-    for (Observer<Dim>* observer : observers) observer->observe(sim, last);
+    for (Observer* observer : observers) observer->observe(sim, last);
   };
   auto finished = [&] {
     return sim.clock.time >= end - round_off || (sim.scene.max_steps > 0 && sim.clock.step >= sim.scene.max_steps);
@@ -71,7 +136,7 @@ bool run(Simulation<Dim>& sim, const std::vector<Observer<Dim>*>& observers, boo
     }
     observe(false);
     double limit = end - sim.clock.time;
-    for (const Observer<Dim>* observer : observers)
+    for (const Observer* observer : observers)
       if (const double wait = observer->next_time() - sim.clock.time; wait > round_off) limit = std::min(limit, wait);
     const auto start = std::chrono::steady_clock::now();
     step(sim, limit);
@@ -80,12 +145,5 @@ bool run(Simulation<Dim>& sim, const std::vector<Observer<Dim>*>& observers, boo
   observe(true);
   return true;
 }
-
-template void evaluate<2>(Simulation<2>&);
-template void evaluate<3>(Simulation<3>&);
-template void step<2>(Simulation<2>&, double);
-template void step<3>(Simulation<3>&, double);
-template bool run<2>(Simulation<2>&, const std::vector<Observer<2>*>&, bool (*)());
-template bool run<3>(Simulation<3>&, const std::vector<Observer<3>*>&, bool (*)());
 
 }  // namespace ejecta

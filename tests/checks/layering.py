@@ -9,7 +9,8 @@ import pathlib
 import re
 import sys
 
-LAYERS = ["base", "scene", "material", "particles", "schemes", "simulation", "render", "insitu", "output", "app"]
+LAYERS = ["base", "scene", "material", "model", "particles", "schemes", "sph", "simulation", "analysis", "render", "insitu",
+          "output", "app"]
 
 # What a line of code may match only in the files named by the second pattern, and what it is called.
 RESERVED = [

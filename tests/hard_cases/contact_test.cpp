@@ -37,7 +37,7 @@ size = ["20 mm", "16 mm"]
 )";
 }
 
-std::unique_ptr<Simulation<2>> broken_blocks(double gap, double closing_speed,
+std::unique_ptr<Sph<2>> broken_blocks(double gap, double closing_speed,
                                              const std::vector<std::string>& more = {}) {
   auto sim = start<2>(two_blocks(gap), more);
   auto& p = sim->particles;
@@ -86,7 +86,7 @@ TEST(Contact, PressureReturnsWhereBrokenBlocksMeet) {
 /// Others, and welded ones that are broken, transmit nothing at all: no particle loses a bit of its speed.
 TEST(Contact, BlocksPartFreelyUnlessWelded) {
   const std::string weld = "bodies.right.weld=left";
-  const auto expect_nothing_lost = [](Simulation<2>& sim) {
+  const auto expect_nothing_lost = [](Sph<2>& sim) {
     const std::vector<double> before = by_id(sim.particles, Field::velocity, 0);
     advance(sim, 200);
     EXPECT_EQ(by_id(sim.particles, Field::velocity, 0), before);

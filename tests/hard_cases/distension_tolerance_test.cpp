@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "unit/simulation/small_scenes.hpp"
+#include "unit/sph/small_scenes.hpp"
 
 namespace ejecta {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "base/errors.hpp"
-#include "simulation/stages.hpp"
-#include "unit/simulation/small_scenes.hpp"
+#include "sph/stages.hpp"
+#include "unit/sph/small_scenes.hpp"
 
 namespace ejecta {
 
@@ -21,7 +21,7 @@ struct Outcome {
 
 /// Runs to its end time, but at most max_steps.
 template <int Dim>
-Outcome follow(Simulation<Dim>& sim, int max_steps = 1000000) {
+Outcome follow(Sph<Dim>& sim, int max_steps = 1000000) {
   Outcome outcome;
   const double end = sim.scene.time_end;
   try {
@@ -40,7 +40,7 @@ Outcome follow(Simulation<Dim>& sim, int max_steps = 1000000) {
 
 /// After particles have been changed by hand: stages and totals as set_up leaves them.
 template <int Dim>
-void begin_from_here(Simulation<Dim>& sim) {
+void begin_from_here(Sph<Dim>& sim) {
   sim.lists.invalidate();
   evaluate(sim);
   for (int a = 0; a < Dim; ++a)

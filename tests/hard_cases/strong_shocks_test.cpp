@@ -64,7 +64,7 @@ TEST(StrongShocks, IntoGasWithoutPressure) {
 }
 
 /// All the energy of a blast in one of 41 x 41 particles.
-std::unique_ptr<Simulation<2>> spike(double ratio, const std::vector<std::string>& overrides) {
+std::unique_ptr<Sph<2>> spike(double ratio, const std::vector<std::string>& overrides) {
   auto sim = start<2>(R"([scene]
 name = "spike"
 dimension = 2

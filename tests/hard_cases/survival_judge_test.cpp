@@ -5,13 +5,13 @@
 
 #include <gtest/gtest.h>
 
-#include "unit/simulation/small_scenes.hpp"
+#include "unit/sph/small_scenes.hpp"
 
 namespace ejecta {
 namespace {
 
 template <int Dim>
-std::unique_ptr<Simulation<Dim>> block(const std::vector<std::string>& settings) {
+std::unique_ptr<Sph<Dim>> block(const std::vector<std::string>& settings) {
   std::string text = R"([scene]
 name = "block"
 dimension = )" + std::to_string(Dim) +

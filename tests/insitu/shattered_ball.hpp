@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "insitu/pipelines.hpp"
-#include "particles/channel.hpp"
+#include "model/channel.hpp"
 
 namespace ejecta {
 

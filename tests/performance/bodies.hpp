@@ -6,14 +6,14 @@
 #include <map>
 
 #include "base/parallel.hpp"
-#include "unit/simulation/small_scenes.hpp"
+#include "unit/sph/small_scenes.hpp"
 
 namespace ejecta {
 
 /// A body of about n particles; overrides as on the command line. The same request is set up once.
 template <int Dim>
-Simulation<Dim>& body(const std::string& material, double n, const std::vector<std::string>& overrides = {}) {
-  static std::map<std::string, std::unique_ptr<Simulation<Dim>>> made;
+Sph<Dim>& body(const std::string& material, double n, const std::vector<std::string>& overrides = {}) {
+  static std::map<std::string, std::unique_ptr<Sph<Dim>>> made;
   const double radius = 35, volume = Dim == 2 ? 3.1416 * radius * radius : 4.1888 * radius * radius * radius;
   const std::string text = fmt::format(
       "[scene]\nname = \"body\"\ndimension = {}\n[resolution]\nspacing = \"{} mm\"\n[time]\nend = \"1 ms\"\n"

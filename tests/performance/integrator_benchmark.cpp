@@ -2,7 +2,7 @@
 /// step/<dimension>/<precision>/<gas|rock> with all stages of a run.
 #include "performance/bodies.hpp"
 #include "performance/measure.hpp"
-#include "simulation/integrator.hpp"
+#include "sph/integrator.hpp"
 
 namespace ejecta {
 namespace {

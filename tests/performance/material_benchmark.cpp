@@ -14,7 +14,7 @@ namespace {
 constexpr double particles = 150000;
 const std::vector<std::string> without_pores{"materials.pumice.porosity.model=none"};
 
-void fill(Simulation<3>& sim, Field f, double low, double high) {
+void fill(Sph<3>& sim, Field f, double low, double high) {
   std::mt19937_64 random(static_cast<unsigned>(f) + 1);
   std::uniform_real_distribution<double> uniform(low, high);
   for (int k = 0; k < components(info(f).shape, 3); ++k)
@@ -22,7 +22,7 @@ void fill(Simulation<3>& sim, Field f, double low, double high) {
 }
 
 /// Runs one stage again and again, each time from the values that the body holds now.
-Measurement measure_stage(benchmark::State& state, Simulation<3>& sim, const std::string& name) {
+Measurement measure_stage(benchmark::State& state, Sph<3>& sim, const std::string& name) {
   const auto stage = std::find_if(sim.stages.begin(), sim.stages.end(), [&](const auto& s) { return s.name == name; });
   const Particles<3> saved = sim.particles;
   Measurement measured(state);
@@ -35,19 +35,19 @@ Measurement measure_stage(benchmark::State& state, Simulation<3>& sim, const std
   measured.items(static_cast<double>(sim.particles.size()));
   return measured;
 }
-double bytes_of_columns(const Simulation<3>& sim, int columns) {
+double bytes_of_columns(const Sph<3>& sim, int columns) {
   return static_cast<double>(sim.particles.size()) * columns * sizeof(double);
 }
 /// Share of the particles for which it is true.
 template <class Predicate>
-double share_of(const Simulation<3>& sim, Predicate&& predicate) {
+double share_of(const Sph<3>& sim, Predicate&& predicate) {
   double count = 0;
   for (std::size_t i = 0; i < sim.particles.size(); ++i) count += predicate(i);
   return count / static_cast<double>(sim.particles.size());
 }
 
 /// Density and energy in, pressure and sound speed out.
-void dense(benchmark::State& state, Simulation<3>& sim, std::array<double, 2> densities,
+void dense(benchmark::State& state, Sph<3>& sim, std::array<double, 2> densities,
            std::array<double, 2> energies) {
   fill(sim, Field::density, densities[0], densities[1]);
   fill(sim, Field::specific_energy, energies[0], energies[1]);

@@ -4,7 +4,7 @@
 #include "performance/measure.hpp"
 #include "render/sampling.hpp"
 #include "schemes/kernels.hpp"
-#include "simulation/fragments.hpp"
+#include "analysis/fragments.hpp"
 
 namespace ejecta {
 namespace {

@@ -16,7 +16,7 @@ constexpr double particles = 50000;
 /// Lists and a pass for one case, on the particles of the body that all cases share.
 template <int Dim>
 struct PairCase {
-  Simulation<Dim>& sim = body<Dim>("pumice", particles);
+  Sph<Dim>& sim = body<Dim>("pumice", particles);
   PairLists<Dim> lists;
   std::unique_ptr<PairPass<Dim>> pass;
 

@@ -11,7 +11,7 @@
 
 #include "base/errors.hpp"
 #include "particles/smoothing_metric.hpp"
-#include "simulation/stages.hpp"
+#include "sph/stages.hpp"
 #include "survival_runs.hpp"
 
 namespace ejecta::survival {
@@ -101,7 +101,7 @@ inline std::string kind_of(const std::string& message) {
 /// @param speed  of the ball [m/s]
 /// @param gas    whether a gas takes part, whose free expansion is faster
 template <int Dim>
-Verdict judge(Simulation<Dim>& sim, double speed, bool gas) {
+Verdict judge(Sph<Dim>& sim, double speed, bool gas) {
   const Particles<Dim>& p = sim.particles;
   const double end = sim.scene.time_end, unit = 0.5 * speed * speed;
   const double widest = largest_growth * sim.scene.numerics.nodes_per_h * sim.scene.spacing;

@@ -1,0 +1,62 @@
+#pragma once
+/// A solver as the time loop sees it. What it solves, and with which fields, is its own affair.
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/timers.hpp"
+#include "model/archive.hpp"
+#include "model/channel.hpp"
+#include "model/clock.hpp"
+#include "model/conserved.hpp"
+#include "model/quantity.hpp"
+
+namespace ejecta {
+
+/// The longest step somebody can bear, and why.
+struct Vote {
+  static constexpr std::size_t nobody = std::numeric_limits<std::size_t>::max();
+  double dt = std::numeric_limits<double>::infinity();  ///< s
+  std::string_view reason = "end of run";
+  std::size_t culprit = nobody;  ///< particle, cell, ...: Package::describe() knows
+};
+
+class Package {
+ public:
+  virtual ~Package() = default;
+  /// Of files, messages and timers; unique among the packages of a run.
+  virtual std::string_view name() const = 0;
+
+  /// The longest step it can bear from here. Whoever can take several steps of his own within one need not vote.
+  virtual Vote vote() = 0;
+  /// Carries its state on by dt [s], and its clock with it. Throws SimulationError.
+  virtual void advance(double dt) = 0;
+  /// Throws SimulationError if its state makes no sense.
+  virtual void check_health() const = 0;
+
+  /// Sums over its present state; what acts on it from outside is in `external`.
+  virtual Totals conserved() const = 0;
+  virtual Kept kept() const { return {}; }
+  /// Everything from which it goes on bit for bit, but for clock and ledger, which every package has.
+  virtual void persist(Archive& archive) = 0;
+
+  virtual Quantities quantities() const { return {}; }
+  /// Live fields for the in-situ pipelines; the views are good until the next step.
+  virtual std::vector<Channel> channels() const { return {}; }
+  /// Of a culprit, for messages.
+  virtual std::string describe(std::size_t culprit) const = 0;
+  /// Where a culprit belongs, in a word or two, for the line of progress; may be empty.
+  virtual std::string whereabouts(std::size_t) const { return ""; }
+  virtual std::size_t elements() const = 0;  ///< particles, cells, ...
+  virtual std::size_t bytes() const = 0;     ///< memory
+
+  Clock clock;
+  Totals initial;         ///< conserved() at the start
+  ExternalLoad external;  ///< on it
+  StageTimers timers;
+};
+
+}  // namespace ejecta

@@ -1,0 +1,40 @@
+#pragma once
+/// How packages come into a run.
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "material/material.hpp"
+#include "model/package.hpp"
+#include "scene/scene.hpp"
+
+namespace ejecta {
+
+struct PackageKind {
+  /// What a scene says about it: there if the scene has this section, or always if the section has no name.
+  SceneSection section;
+  /// Throws InputError if the scene asks for what cannot be, SimulationError if the first evaluation fails.
+  std::function<std::unique_ptr<Package>(const Scene&, const std::vector<Material>&)> set_up;
+};
+
+/// All there are, in the order in which they advance. This is the one place that knows them: app/packages.cpp.
+const std::vector<PackageKind>& package_kinds();
+
+/// What they add to a scene file.
+inline std::vector<SceneSection> package_sections() {
+  std::vector<SceneSection> sections;
+  for (const PackageKind& kind : package_kinds())
+    if (!kind.section.name.empty()) sections.push_back(kind.section);
+  return sections;
+}
+
+/// Those that a scene asks for.
+inline std::vector<std::unique_ptr<Package>> set_up_packages(const Scene& scene, const std::vector<Material>& materials) {
+  std::vector<std::unique_ptr<Package>> packages;
+  for (const PackageKind& kind : package_kinds())
+    if (kind.section.name.empty() || scene.sections.contains(kind.section.name))
+      packages.push_back(kind.set_up(scene, materials));
+  return packages;
+}
+
+}  // namespace ejecta

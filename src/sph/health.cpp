@@ -1,0 +1,71 @@
+/// Whether the particles make sense, and who they are.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "base/errors.hpp"
+#include "base/parallel.hpp"
+#include "sph/sph.hpp"
+
+namespace ejecta {
+
+namespace {
+
+/// The first stage that wrote something not finite to the particle, else the integration.
+template <int Dim>
+std::string origin_of_failure(const Sph<Dim>& sph, std::size_t i) {
+  for (const Stage<Dim>& stage : sph.stages)
+    for (Field f : stage.writes)
+      for (int k = 0; k < components(info(f).shape, Dim); ++k)
+        if (!std::isfinite(sph.particles.column(f, k)[i]))
+          return fmt::format("stage \"{}\" (field {})", stage.name, info(f).name);
+  return sph.clock.step == 0 ? "after set-up" : "after correction";
+}
+
+}  // namespace
+
+template <int Dim>
+std::string Sph<Dim>::whereabouts(std::size_t i) const {
+  return scene.bodies[static_cast<std::size_t>(particles.label(Label::body)[i])].name;
+}
+
+template <int Dim>
+std::string Sph<Dim>::describe(std::size_t i) const {
+  const Particles<Dim>& p = particles;
+  auto components = [&](Field f) {
+    std::string text;
+    for (int a = 0; a < Dim; ++a) text += fmt::format("{}{:.6g}", a ? ", " : "", p.column(f, a)[i]);
+    return text;
+  };
+  return fmt::format(
+      "particle {} (body \"{}\", material \"{}\") at ({}) m, velocity ({}) m/s, density {:.6g} kg/m^3, specific energy "
+      "{:.6g} J/kg, smoothing length {:.6g} m",
+      p.label(Label::id)[i], whereabouts(i), materials[static_cast<std::size_t>(p.label(Label::material)[i])].name,
+      components(Field::position), components(Field::velocity), p.column(Field::density)[i],
+      p.column(Field::specific_energy)[i], p.column(Field::smoothing_length)[i]);
+}
+
+template <int Dim>
+void Sph<Dim>::check_health() const {
+  const Particles<Dim>& p = particles;
+  auto healthy = [&](std::size_t i) {
+    double sum = p.column(Field::specific_energy)[i] + p.column(Field::density)[i];
+    for (int a = 0; a < Dim; ++a)
+      sum += p.column(Field::position, a)[i] + p.column(Field::velocity, a)[i] + p.column(Field::acceleration, a)[i];
+    return std::isfinite(sum) && p.column(Field::density)[i] > 0;
+  };
+  const IndexedMin worst = parallel_min(p.size(), 0.5, [&](std::size_t i) { return healthy(i) ? 1.0 : 0.0; });
+  if (worst.index == p.size()) return;
+  throw SimulationError(fmt::format("time {:.6g} s, step {}, {}: state not finite or density not positive: {}",
+                                    clock.time, clock.step, origin_of_failure(*this, worst.index),
+                                    describe(worst.index)));
+}
+
+template void Sph<2>::check_health() const;
+template void Sph<3>::check_health() const;
+template std::string Sph<2>::describe(std::size_t) const;
+template std::string Sph<3>::describe(std::size_t) const;
+template std::string Sph<2>::whereabouts(std::size_t) const;
+template std::string Sph<3>::whereabouts(std::size_t) const;
+
+}  // namespace ejecta

@@ -1,0 +1,45 @@
+#include <algorithm>
+
+#include "particles/spatial_order.hpp"
+#include "schemes/kernels.hpp"
+#include "sph/stages.hpp"
+
+namespace ejecta {
+
+namespace {
+constexpr double steps_ahead = 10;  ///< steps that new lists should last
+/// Sorting changes the order of all sums, so it must not depend on when lists happen to be renewed: a restarted run
+/// renews them at other steps, which changes nothing.
+constexpr std::int64_t steps_between_sorts = 200;
+}  // namespace
+
+template <int Dim>
+void renew_lists(Sph<Dim>& sph) {
+  if (sph.lists.valid(sph.particles, sph.clock.time - sph.lists_built_at)) return;
+  const Numerics& numerics = sph.scene.numerics;
+  sph.lists.build(sph.particles, {kernel_support(numerics.kernel), cluster_size(numerics.precision),
+                                  steps_ahead * sph.clock.dt, sph.scene.boundary});
+  sph.lists_built_at = sph.clock.time;
+  ++sph.list_builds;
+}
+
+template <int Dim>
+std::function<void(Sph<Dim>&)> neighbours() {
+  return [order = std::vector<std::uint32_t>()](Sph<Dim>& sph) mutable {
+    wrap_positions(sph.particles, sph.scene.boundary);
+    if (sph.clock.step % steps_between_sorts == 0) {
+      spatial_order(sph.particles, cluster_size(sph.scene.numerics.precision), order);
+      sph.particles.reorder(order);
+      sph.lists.invalidate();
+      ++sph.sorts;
+    }
+    renew_lists(sph);
+  };
+}
+
+template void renew_lists<2>(Sph<2>&);
+template void renew_lists<3>(Sph<3>&);
+template std::function<void(Sph<2>&)> neighbours<2>();
+template std::function<void(Sph<3>&)> neighbours<3>();
+
+}  // namespace ejecta

@@ -1,0 +1,132 @@
+#include "sph/seedlings.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "base/errors.hpp"
+#include "base/random.hpp"
+
+namespace ejecta {
+
+template <int Dim>
+std::uint64_t position_key(const Vec<Dim>& x, double spacing) {
+  std::uint64_t key = 0x9e3779b97f4a7c15ull;
+  for (int a = 0; a < Dim; ++a) {
+    key ^= static_cast<std::uint64_t>(std::llround(x[a] / spacing * 64));
+    key = (key ^ (key >> 30)) * 0xbf58476d1ce4e5b9ull;
+    key = (key ^ (key >> 27)) * 0x94d049bb133111ebull;
+    key ^= key >> 31;
+  }
+  return key;
+}
+
+template <int Dim>
+FormulaPoint formula_point(const Body& body, const Vec<Dim>& x, double spacing) {
+  FormulaPoint point{.spacing = spacing};
+  double r2 = 0;
+  for (std::size_t a = 0; a < Dim; ++a) {
+    point.x[a] = x[a];
+    r2 += (x[a] - body.center[a]) * (x[a] - body.center[a]);
+  }
+  point.r = std::sqrt(r2);
+  return point;
+}
+
+void refuse_value(const Body& body, const std::string& key, const std::string& expected, double value,
+                  const FormulaPoint& point) {
+  throw InputError(fmt::format("{}: bodies.{}.profile.{}: expected {}, got {} at ({:.6g}, {:.6g}, {:.6g}) m",
+                               body.origin, body.name, key, expected, value, point.x[0], point.x[1], point.x[2]));
+}
+
+namespace {
+
+/// Whether a point lies between the faces of the boundary box; its open axes have none.
+template <int Dim>
+bool within(const Boundary& boundary, const Vec<Dim>& x) {
+  for (std::size_t a = 0; a < Dim; ++a)
+    if (boundary.kind[a] != BoundaryKind::open && (x[a] < boundary.min[a] || x[a] > boundary.max[a])) return false;
+  return true;
+}
+
+/// Several formulas of one body: a vector or a tensor.
+std::vector<Formula> compile(const std::vector<std::string>& texts) {
+  return std::vector<Formula>(texts.begin(), texts.end());
+}
+
+/// Where the particles of a body stand: the lattice cut by the shape and the boundary box, then moved.
+template <int Dim>
+std::vector<Seedling<Dim>> fill_body(const Scene& scene, std::size_t b, const Material& material, int number) {
+  const Body& body = scene.bodies[b];
+  const double spacing = scene.spacing * body.spacing_factor;
+  const PointCloud<Dim> cloud = fill<Dim>(body, spacing, scene.lattice, scene.seed);
+  const std::vector<Formula> displacement = compile(body.profile.displacement);
+  const std::vector<Formula> density =
+      body.profile.density.empty() ? std::vector<Formula>{} : compile({body.profile.density});
+  const double uniform = is_set(body.density) ? body.density : material.bulk_density();
+  std::vector<Seedling<Dim>> seedlings;
+  for (const Vec<Dim>& site : cloud.points) {
+    if (!within<Dim>(scene.boundary, site)) continue;
+    const double width = std::pow(cloud.volume, 1.0 / Dim);
+    Seedling<Dim> s{site, site, cloud.volume, width, uniform, static_cast<int>(b), number};
+    for (int a = 0; a < Dim; ++a) {
+      if (body.jitter > 0)
+        s.x[a] +=
+            body.jitter * width *
+            (2 * uniform_random(scene.seed, position_key<Dim>(site, width), static_cast<std::uint64_t>(3 + a)) - 1);
+      if (displacement.empty()) continue;
+      const FormulaPoint point = formula_point<Dim>(body, site, width);
+      const double moved = displacement[static_cast<std::size_t>(a)](point);
+      if (!std::isfinite(moved)) refuse_value(body, "displacement", "a finite number", moved, point);
+      s.x[a] += moved;
+    }
+    if (!density.empty()) {
+      const FormulaPoint point = formula_point<Dim>(body, s.x, width);
+      s.density = density.front()(point);
+      if (!(s.density > 0 && std::isfinite(s.density))) refuse_value(body, "density", "a number > 0", s.density, point);
+    }
+    seedlings.push_back(s);
+  }
+  return seedlings;
+}
+
+}  // namespace
+
+template <int Dim>
+std::vector<Seedling<Dim>> sow(const Scene& scene, const std::vector<Material>& materials,
+                               const std::vector<int>& body_material) {
+  std::vector<std::string> problems;
+  std::vector<std::vector<Seedling<Dim>>> by_material(materials.size());
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const Body& body = scene.bodies[b];
+    const auto report = [&](const std::string& text) {
+      problems.push_back(fmt::format("{}: bodies.{}: {}", body.origin, body.name, text));
+    };
+    const auto seedlings =
+        fill_body<Dim>(scene, b, materials[static_cast<std::size_t>(body_material[b])], body_material[b]);
+    if (seedlings.empty())
+      report(fmt::format("expected room for at least one particle, got none at a spacing of {:.4g} m",
+                         scene.spacing * body.spacing_factor));
+    std::size_t shared = 0;
+    for (const Seedling<Dim>& s : seedlings)
+      for (std::size_t other = 0; other < b; ++other)
+        if (inside<Dim>(scene.bodies[other], s.site)) ++shared;
+    if (shared > 0)
+      report(fmt::format("expected a body clear of all earlier ones, got an overlap of {} particles", shared));
+    auto& group = by_material[static_cast<std::size_t>(body_material[b])];
+    group.insert(group.end(), seedlings.begin(), seedlings.end());
+  }
+  if (!problems.empty()) throw InputError(problems);
+  std::vector<Seedling<Dim>> all;
+  for (auto& group : by_material) all.insert(all.end(), group.begin(), group.end());
+  return all;
+}
+
+template std::vector<Seedling<2>> sow<2>(const Scene&, const std::vector<Material>&, const std::vector<int>&);
+template std::vector<Seedling<3>> sow<3>(const Scene&, const std::vector<Material>&, const std::vector<int>&);
+template std::uint64_t position_key<2>(const Vec<2>&, double);
+template std::uint64_t position_key<3>(const Vec<3>&, double);
+template FormulaPoint formula_point<2>(const Body&, const Vec<2>&, double);
+template FormulaPoint formula_point<3>(const Body&, const Vec<3>&, double);
+
+}  // namespace ejecta

@@ -1,0 +1,188 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "base/errors.hpp"
+#include "base/parallel.hpp"
+#include "particles/smoothing_metric.hpp"
+#include "schemes/kernels.hpp"
+#include "schemes/pair_records.hpp"
+#include "sph/pieces.hpp"
+#include "sph/seedlings.hpp"
+#include "sph/stages.hpp"
+#include "sph/criteria.hpp"
+#include "sph/diagnostics.hpp"
+
+namespace ejecta {
+
+namespace {
+
+/// Material number of each body: its place in the list of materials by name.
+std::vector<int> number_materials(const Scene& scene, const std::vector<Material>& materials) {
+  std::vector<int> numbers;
+  for (const Body& body : scene.bodies) {
+    int m = 0;
+    while (materials[static_cast<std::size_t>(m)].name != body.material) ++m;
+    numbers.push_back(m);
+  }
+  return numbers;
+}
+
+/// Puts the formulas of the bodies in place of their uniform values.
+template <int Dim>
+void apply_profiles(Sph<Dim>& sph, const std::vector<Seedling<Dim>>& seedlings) {
+  Particles<Dim>& p = sph.particles;
+  for (std::size_t b = 0; b < sph.scene.bodies.size(); ++b) {
+    const Body& body = sph.scene.bodies[b];
+    const Profile& profile = body.profile;
+    const Material& material = sph.materials[static_cast<std::size_t>(sph.body_material[b])];
+    const auto evaluate = [&](const std::string& key, const std::string& text, auto&& store) {
+      if (text.empty()) return;
+      const Formula formula(text);
+      for (std::size_t i = 0; i < seedlings.size(); ++i) {
+        if (seedlings[i].body != static_cast<int>(b)) continue;
+        const FormulaPoint point = formula_point<Dim>(body, seedlings[i].x, seedlings[i].spacing);
+        const double value = formula(point);
+        if (!std::isfinite(value)) refuse_value(body, key, "a finite number", value, point);
+        store(i, value);
+      }
+    };
+    evaluate("specific_energy", profile.specific_energy,
+             [&](std::size_t i, double value) { p.column(Field::specific_energy)[i] = value; });
+    evaluate("pressure", profile.pressure, [&](std::size_t i, double value) {
+      p.column(Field::specific_energy)[i] = std::get<IdealGas>(material.eos).energy(p.column(Field::density)[i], value);
+    });
+    for (std::size_t a = 0; a < profile.velocity.size(); ++a)
+      evaluate("velocity", profile.velocity[a],
+               [&](std::size_t i, double value) { p.column(Field::velocity, static_cast<int>(a))[i] = value; });
+    for (std::size_t k = 0; k < profile.deviatoric_stress.size(); ++k)
+      evaluate("deviatoric_stress", profile.deviatoric_stress[k], [&](std::size_t i, double value) {
+        p.column(Field::deviatoric_stress, static_cast<int>(k))[i] = value;
+      });
+  }
+}
+
+double initial_energy(const Body& body, const Material& material, double density) {
+  if (std::isnan(body.pressure)) return body.specific_energy;
+  return std::get<IdealGas>(material.eos).energy(density, body.pressure);
+}
+
+template <int Dim>
+void plant(Sph<Dim>& sph, const std::vector<Seedling<Dim>>& seedlings) {
+  Particles<Dim>& p = sph.particles;
+  const Scene& scene = sph.scene;
+  std::vector<double> per_body(scene.bodies.size(), 0);
+  std::vector<Range> ranges(sph.materials.size(), Range{0, 0});
+  for (const auto& s : seedlings) {
+    per_body[static_cast<std::size_t>(s.body)] += 1;
+    for (std::size_t m = static_cast<std::size_t>(s.material); m < ranges.size(); ++m) {
+      ranges[m].end += 1;
+      if (m > static_cast<std::size_t>(s.material)) ranges[m].begin += 1;
+    }
+  }
+  p.set_material_ranges(ranges);
+  parallel_for(0, seedlings.size(), [&](std::size_t i) {
+    const auto& s = seedlings[i];
+    const Body& body = scene.bodies[static_cast<std::size_t>(s.body)];
+    const Material& material = sph.materials[static_cast<std::size_t>(s.material)];
+    p.set_vector(Field::position, i, s.x);
+    for (int a = 0; a < Dim; ++a) p.column(Field::velocity, a)[i] = body.velocity[static_cast<std::size_t>(a)];
+    // Single precision must hold the mass exactly: both sides of a pair then use the same two masses.
+    const double mass = s.density * s.volume;
+    p.column(Field::mass)[i] = scene.numerics.precision == Precision::mixed ? static_cast<float>(mass) : mass;
+    p.column(Field::density)[i] = s.density;
+    p.column(Field::specific_energy)[i] = initial_energy(body, material, s.density);
+    p.column(Field::smoothing_length)[i] = scene.numerics.nodes_per_h * s.spacing;
+    if (p.has(Field::smoothing_metric))
+      p.set_symmetric(Field::smoothing_metric, i, round_metric<Dim>(scene.numerics.nodes_per_h * s.spacing));
+    p.label(Label::id)[i] = static_cast<std::int32_t>(i);
+    p.label(Label::body)[i] = s.body;
+    p.label(Label::material)[i] = s.material;
+    if (p.has(Field::distension))
+      p.column(Field::distension)[i] = material.porosity ? material.porosity->initial_distension() : 1.0;
+    if (p.has(Field::bond)) {
+      p.set_vector(Field::start_position, i, s.x);
+      p.column(Field::bond)[i] = scene.numerics.bonds == Switch::on
+                                     ? material.solid() && !material.damage && !material.porosity
+                                     : material.stretches();
+      p.column(Field::stretch)[i] = 1;
+    }
+    if (p.has(Field::viscosity_factor)) p.column(Field::viscosity_factor)[i] = 1;
+    if (p.has(Field::shock_switch)) p.column(Field::shock_switch)[i] = 1;
+    if (p.has(Field::stress_factor)) p.column(Field::stress_factor)[i] = 1;
+    if (material.damage) {
+      const double solid_volume = s.density * s.volume / reference_density(material.eos);
+      const std::uint64_t key = position_key<Dim>(s.site, s.spacing);
+      if (material.damage->growth == CrackLaw::benz_asphaug) {
+        const Flaws flaws =
+            draw_flaws(*material.damage, solid_volume, per_body[static_cast<std::size_t>(s.body)], scene.seed, key);
+        p.column(Field::flaw_strain)[i] = flaws.strain;
+        p.column(Field::flaw_exponent)[i] = flaws.exponent;
+        p.column(Field::flaw_count)[i] = flaws.count;
+      } else {
+        p.column(Field::flaw_strain)[i] = draw_weakest_flaw(*material.damage, solid_volume, scene.seed, key);
+      }
+    }
+  });
+  if (p.has(Field::damage)) sph.intact.assign(p.size(), 1.0);
+}
+
+}  // namespace
+
+template <int Dim>
+std::unique_ptr<Sph<Dim>> set_up(const Scene& scene, const std::vector<Material>& materials) {
+  auto sph = std::make_unique<Sph<Dim>>();
+  sph->scene = scene;
+  sph->materials = materials;
+  sph->body_material = number_materials(scene, materials);
+  sph->stages = choose_stages<Dim>(scene, materials);
+  const auto seedlings = sow<Dim>(scene, materials, sph->body_material);
+  sph->particles.allocate(seedlings.size(), fields_of(sph->stages));
+  plant(*sph, seedlings);
+  apply_profiles(*sph, seedlings);
+
+  const Numerics& numerics = scene.numerics;
+  PairPassSettings settings;
+  settings.kernel = numerics.kernel;
+  settings.precision = numerics.precision;
+  settings.bonded = sph->particles.has(Field::bond);
+  settings.gradient_correction = settings.bonded || corrects_gradients(scene, materials);
+  settings.stress = settings.gradient_correction || sph->particles.has(Field::deviatoric_stress);
+  settings.velocity_gradient = sph->particles.has(Field::velocity_gradient);
+  settings.tensor = sph->particles.has(Field::smoothing_metric);
+  settings.coupled = sph->particles.has(Field::coupled_gradient);
+  for (const Material& m : materials) {
+    settings.rules.reference_density.push_back(m.bulk_density());
+    settings.rules.cut_by_cracks.push_back(m.cuts_pairs());
+  }
+  for (const Body& body : scene.bodies) settings.rules.sizes.push_back(scene.spacing * body.spacing_factor);
+  settings.rules.pieces = pieces_of(scene, materials, sph->body_material);
+  settings.rules.boundary = scene.boundary;
+  settings.touches = settings.bonded || anything_touches(scene, settings.rules.pieces);
+  settings.friction = scene.contact.friction;
+  // Sums of masses spread a contact over a kernel, and weights by mass go with them as far as those hold; densities by
+  // continuity jump there.
+  settings.alike = numerics.density == DensityMethod::summation ? 64 : 4;
+  settings.viscosity_alpha = numerics.viscosity_alpha;
+  settings.viscosity_beta = numerics.viscosity_beta;
+  settings.length_unit = power_of_two_below(scene.spacing);
+  sph->pass = make_pair_pass<Dim>(settings);
+  sph->support = std::make_unique<SupportSize>(numerics.kernel, Dim, numerics.nodes_per_h);
+
+  sph->criteria = choose_criteria<Dim>(scene);
+
+  sph->evaluate();
+  sph->check_health();
+  // The first step has no step before it: its previous rates are the present ones.
+  for (int a = 0; a < Dim; ++a)
+    std::ranges::copy(sph->particles.column(Field::acceleration, a),
+                      sph->particles.previous(Field::acceleration, a).begin());
+  sph->initial = totals(sph->particles);
+  sph->outset = outset(sph->particles, scene, materials);
+  return sph;
+}
+
+template std::unique_ptr<Sph<2>> set_up<2>(const Scene&, const std::vector<Material>&);
+template std::unique_ptr<Sph<3>> set_up<3>(const Scene&, const std::vector<Material>&);
+
+}  // namespace ejecta
