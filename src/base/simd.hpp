@@ -38,13 +38,20 @@ template <class V, class T>
   return value - V{};
 }
 
+#ifdef __AVX512F__
+// Masks of every lane: with them the intrinsics are the same instructions as without a mask, but do not begin with a
+// vector that GCC 12 warns of as uninitialized.
+inline constexpr __mmask8 all_doubles = 0xff;
+inline constexpr __mmask16 all_floats = 0xffff;
+#endif
+
 inline double max(double a, double b) { return a > b ? a : b; }
 inline double min(double a, double b) { return a < b ? a : b; }
 #if defined(__AVX512F__)
-inline Doubles max(Doubles a, Doubles b) { return (Doubles)_mm512_max_pd((__m512d)a, (__m512d)b); }
-inline Doubles min(Doubles a, Doubles b) { return (Doubles)_mm512_min_pd((__m512d)a, (__m512d)b); }
-inline Floats max(Floats a, Floats b) { return (Floats)_mm512_max_ps((__m512)a, (__m512)b); }
-inline Floats min(Floats a, Floats b) { return (Floats)_mm512_min_ps((__m512)a, (__m512)b); }
+inline Doubles max(Doubles a, Doubles b) { return (Doubles)_mm512_maskz_max_pd(all_doubles, (__m512d)a, (__m512d)b); }
+inline Doubles min(Doubles a, Doubles b) { return (Doubles)_mm512_maskz_min_pd(all_doubles, (__m512d)a, (__m512d)b); }
+inline Floats max(Floats a, Floats b) { return (Floats)_mm512_maskz_max_ps(all_floats, (__m512)a, (__m512)b); }
+inline Floats min(Floats a, Floats b) { return (Floats)_mm512_maskz_min_ps(all_floats, (__m512)a, (__m512)b); }
 /// Bit k: a < b in lane k.
 inline unsigned lanes_less(Doubles a, Doubles b) { return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LT_OQ); }
 inline unsigned lanes_less(Floats a, Floats b) { return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LT_OQ); }
@@ -90,16 +97,12 @@ inline V magnitude(V a) {
 inline Doubles fused(Doubles a, Doubles b, Doubles c) {
   return (Doubles)_mm512_fmadd_pd((__m512d)a, (__m512d)b, (__m512d)c);
 }
-inline Floats fused(Floats a, Floats b, Floats c) {
-  return (Floats)_mm512_fmadd_ps((__m512)a, (__m512)b, (__m512)c);
-}
+inline Floats fused(Floats a, Floats b, Floats c) { return (Floats)_mm512_fmadd_ps((__m512)a, (__m512)b, (__m512)c); }
 #elif defined(__AVX2__) && defined(__FMA__)
 inline Doubles fused(Doubles a, Doubles b, Doubles c) {
   return (Doubles)_mm256_fmadd_pd((__m256d)a, (__m256d)b, (__m256d)c);
 }
-inline Floats fused(Floats a, Floats b, Floats c) {
-  return (Floats)_mm256_fmadd_ps((__m256)a, (__m256)b, (__m256)c);
-}
+inline Floats fused(Floats a, Floats b, Floats c) { return (Floats)_mm256_fmadd_ps((__m256)a, (__m256)b, (__m256)c); }
 #else
 template <class V>
 inline V fused(V a, V b, V c) {
@@ -151,22 +154,22 @@ inline V reciprocal_sqrt(V a) {
 }
 #ifdef __AVX512F__
 inline Doubles reciprocal(Doubles a) {
-  Doubles y = (Doubles)_mm512_rcp14_pd((__m512d)a);
+  Doubles y = (Doubles)_mm512_maskz_rcp14_pd(all_doubles, (__m512d)a);
   y = y * (2.0 - a * y);
   return y * (2.0 - a * y);
 }
 inline Floats reciprocal(Floats a) {
-  const Floats y = (Floats)_mm512_rcp14_ps((__m512)a);
+  const Floats y = (Floats)_mm512_maskz_rcp14_ps(all_floats, (__m512)a);
   return y * (2.0f - a * y);
 }
 inline Doubles reciprocal_sqrt(Doubles a) {
-  Doubles y = (Doubles)_mm512_rsqrt14_pd((__m512d)a);
+  Doubles y = (Doubles)_mm512_maskz_rsqrt14_pd(all_doubles, (__m512d)a);
   const Doubles half = 0.5 * a;
   y = y * (1.5 - half * y * y);
   return y * (1.5 - half * y * y);
 }
 inline Floats reciprocal_sqrt(Floats a) {
-  const Floats y = (Floats)_mm512_rsqrt14_ps((__m512)a);
+  const Floats y = (Floats)_mm512_maskz_rsqrt14_ps(all_floats, (__m512)a);
   return y * (1.5f - 0.5f * a * y * y);
 }
 /// To a few units in the last place, and far faster than the instruction of that name; 0 of 0.
@@ -209,10 +212,13 @@ struct WideSum<float> {
     high += weight * upper(value);
   }
 #if defined(__AVX512F__)
-  static Doubles lower(Floats v) { return (Doubles)_mm512_cvtps_pd(_mm512_castps512_ps256((__m512)v)); }
-  static Doubles upper(Floats v) {
-    return (Doubles)_mm512_cvtps_pd(_mm256_castpd_ps(_mm512_extractf64x4_pd(_mm512_castps_pd((__m512)v), 1)));
+  template <int Half>
+  static Doubles half(Floats v) {
+    const __m256d floats = _mm512_maskz_extractf64x4_pd(0xf, _mm512_castps_pd((__m512)v), Half);
+    return (Doubles)_mm512_maskz_cvtps_pd(all_doubles, _mm256_castpd_ps(floats));
   }
+  static Doubles lower(Floats v) { return half<0>(v); }
+  static Doubles upper(Floats v) { return half<1>(v); }
 #elif defined(__AVX2__)
   static Doubles lower(Floats v) { return (Doubles)_mm256_cvtps_pd(_mm256_castps256_ps128((__m256)v)); }
   static Doubles upper(Floats v) { return (Doubles)_mm256_cvtps_pd(_mm256_extractf128_ps((__m256)v, 1)); }

@@ -8,7 +8,7 @@
 
 #include "material/crush_curve.hpp"
 #include "material/eos_point.hpp"
-#include "scene/scene.hpp"
+#include "scene/choices.hpp"
 
 namespace ejecta {
 

@@ -129,8 +129,8 @@ Materials read_materials(const Scene& scene, const std::string& library) {
 
 std::string resolved_toml(const Scene& scene, const Materials& materials) { return scene_toml(scene) + materials.toml; }
 
-std::string reference(std::string_view section) {
-  std::string text = scene_reference(section);
+std::string reference(std::string_view section, const std::vector<SceneSection>& sections) {
+  std::string text = scene_reference(section, sections);
   // Every block of every model once; materials.eos and eos both mean that section.
   const bool all = section.empty() || section == "materials";
   std::string_view part = section;

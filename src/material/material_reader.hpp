@@ -34,6 +34,6 @@ std::string resolved_toml(const Scene& scene, const Materials& materials);
 
 /// The reference of all settings of scenes and materials, or of one section (`materials` for all of theirs). Throws
 /// InputError if there is no such section.
-std::string reference(std::string_view section = "");
+std::string reference(std::string_view section = "", const std::vector<SceneSection>& sections = {});
 
 }  // namespace ejecta

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "particles/particles.hpp"
-#include "scene/scene.hpp"
+#include "scene/choices.hpp"
 
 namespace ejecta {
 

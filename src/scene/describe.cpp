@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace ejecta {
 
 void describe(Describer& d, Body& b) {
@@ -114,7 +116,7 @@ void describe(Describer& d, OutputSettings& o) {
   d.flag("peaks", o.peaks, "particles remember peak pressure, peak energy, lowest density and where they come from");
 }
 
-void describe(Describer& d, Scene& s) {
+void describe(Describer& d, Scene& s, const std::vector<SceneSection>& sections) {
   d.section("scene", "what it is");
   d.text("name", s.name, "names the run folder").required = true;
   d.text("title", s.title, "one line for people");
@@ -139,6 +141,11 @@ void describe(Describer& d, Scene& s) {
   describe(d, s.boundary);
   d.section("contact", "bodies and walls that touch: they press and part, and slide or rub");
   describe(d, s.contact);
+  for (const auto& [name, settings] : s.sections) {
+    const auto about = std::ranges::find(sections, name, &SceneSection::name);
+    d.section(name, about == sections.end() ? "" : about->doc);
+    settings->describe(d);
+  }
   d.section("insitu", "pictures while the run goes on");
   describe(d, s.insitu);
   d.section("insitu.ranges", "field name = fixed colour range");

@@ -141,6 +141,8 @@ Origin Document::origin(const std::string& path) const {
   return {file, 0};
 }
 
+bool Document::holds(const std::string& name) const { return tables.contains(name) || !children(name).empty(); }
+
 std::size_t Document::count(const std::string& name) const {
   std::size_t n = 0;
   while (tables.contains(fmt::format("{}[{}]", name, n))) ++n;

@@ -39,6 +39,8 @@ struct Document {
 
   /// The origin of a value or table, else of the nearest table around it, else the file.
   Origin origin(const std::string& path) const;
+  /// Whether anything is written under [name].
+  bool holds(const std::string& name) const;
   /// Number of tables written under [[name]].
   std::size_t count(const std::string& name) const;
   /// The keys directly below a path: children("insitu.ranges") -> {"damage", "pressure"}.

@@ -1,31 +1,20 @@
 #pragma once
 /// What a scene file asks for, checked and in SI. Plain values with their defaults: `describe.cpp` says the unit, the
 /// range and the meaning of each, and the same text reads, checks, echoes and documents them.
-#include <array>
-#include <cmath>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "scene/choices.hpp"
 #include "scene/document.hpp"
 #include "scene/section.hpp"
 
 namespace ejecta {
 
-inline constexpr double unset = std::numeric_limits<double>::signaling_NaN();
-inline bool is_set(double value) { return !std::isnan(value); }
-using Triple = std::array<double, 3>;  ///< x, y, z; z is ignored in plane strain
-
-enum class Kernel { cubic_spline, quintic_spline, wendland_c2, wendland_c4 };
 enum class SchemeKind { sph, asph };
-enum class Precision { double_precision, mixed };
 enum class DensityMethod { continuity, summation };
-/// reflecting: a wall, which solids press against and leave; symmetry: a plane that matter goes on behind.
-enum class BoundaryKind { open, periodic, reflecting, symmetry };
-enum class DistensionSolver { safe_newton, bisection, newton };
 enum class Lattice { cubic, hexagonal, glass };
 enum class OnError { continue_run, abort };
 enum class Switch { automatic, off, on };
@@ -81,12 +70,6 @@ struct Numerics {
   DistensionSolver distension_solver = DistensionSolver::safe_newton;
   double distension_tolerance = 1e-12;
   double max_energy_drift = 0.05;  ///< run ends with an error beyond this relative drift of total energy
-};
-
-/// Box with periodic or reflecting faces; axes that are open extend to infinity.
-struct Boundary {
-  std::array<BoundaryKind, 3> kind{BoundaryKind::open, BoundaryKind::open, BoundaryKind::open};  ///< x, y, z
-  Triple min{unset, unset, unset}, max{unset, unset, unset};                                     ///< m
 };
 
 /// A colour range that stays fixed from the first frame to the last.

@@ -43,7 +43,8 @@ void find_pipelines(Scene& scene, const Document& document, Problems& problems) 
   }
 }
 
-Scene interpret(Document document, const std::vector<std::string>& overrides) {
+Scene interpret(Document document, const std::vector<std::string>& overrides,
+                const std::vector<SceneSection>& sections) {
   Problems problems;
   for (const std::string& assignment : overrides) {
     try {
@@ -62,8 +63,10 @@ Scene interpret(Document document, const std::vector<std::string>& overrides) {
   if (document.tables.erase("bodies"))
     std::erase_if(document.items, [](const auto& item) { return item.first.starts_with("bodies."); });
   for (const std::string& field : document.children("insitu.ranges")) scene.insitu.ranges[field] = {0, 1};
+  for (const SceneSection& section : sections)
+    if (document.holds(section.name)) scene.sections[section.name] = section.settings();
   Describer description;
-  describe(description, scene);
+  describe(description, scene, sections);
   read_settings(description, document, problems);
   for (std::size_t k = 0; k < scene.bodies.size(); ++k)
     scene.bodies[k].origin = document.origin(fmt::format("bodies[{}]", k)).text;
@@ -75,12 +78,14 @@ Scene interpret(Document document, const std::vector<std::string>& overrides) {
 
 }  // namespace
 
-Scene read_scene(const std::string& path, const std::vector<std::string>& overrides) {
-  return interpret(read_document(path), overrides);
+Scene read_scene(const std::string& path, const std::vector<std::string>& overrides,
+                 const std::vector<SceneSection>& sections) {
+  return interpret(read_document(path), overrides, sections);
 }
 
-Scene parse_scene(const std::string& text, const std::string& name, const std::vector<std::string>& overrides) {
-  return interpret(parse_document(text, name), overrides);
+Scene parse_scene(const std::string& text, const std::string& name, const std::vector<std::string>& overrides,
+                  const std::vector<SceneSection>& sections) {
+  return interpret(parse_document(text, name), overrides, sections);
 }
 
 std::string scene_toml(const Scene& scene) {
@@ -90,12 +95,13 @@ std::string scene_toml(const Scene& scene) {
   return write_toml(description);
 }
 
-std::string scene_reference(std::string_view section) {
+std::string scene_reference(std::string_view section, const std::vector<SceneSection>& sections) {
   Scene scene;
+  for (const SceneSection& s : sections) scene.sections[s.name] = s.settings();
   scene.bodies.resize(1);
   scene.insitu.ranges["<field>"] = {0, 1};
   Describer description;
-  describe(description, scene);
+  describe(description, scene, sections);
   return write_reference(description, section);
 }
 

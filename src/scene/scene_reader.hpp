@@ -11,11 +11,13 @@ namespace ejecta {
 
 /// Reads a scene and applies overrides such as "time.end=20us" (what --set was given). Throws InputError with
 /// everything that is wrong: unknown keys, types, units, ranges, and values that do not go together. Pipelines come
-/// back as paths that exist.
-Scene read_scene(const std::string& path, const std::vector<std::string>& overrides = {});
+/// back as paths that exist. `sections` are those it may have beside its own; Scene::sections holds the ones it has.
+Scene read_scene(const std::string& path, const std::vector<std::string>& overrides = {},
+                 const std::vector<SceneSection>& sections = {});
 
 /// The same from text; `name` stands for the path.
-Scene parse_scene(const std::string& text, const std::string& name, const std::vector<std::string>& overrides = {});
+Scene parse_scene(const std::string& text, const std::string& name, const std::vector<std::string>& overrides = {},
+                  const std::vector<SceneSection>& sections = {});
 
 /// Adds a problem for every pair of values that do not go together. `document` tells where they were written.
 void check_scene(const Scene& scene, const Document& document, Problems& problems);
@@ -24,6 +26,6 @@ void check_scene(const Scene& scene, const Document& document, Problems& problem
 std::string scene_toml(const Scene& scene);
 
 /// Every key of a scene, or of one section, with unit, range, default and meaning. Empty if there is no such section.
-std::string scene_reference(std::string_view section = "");
+std::string scene_reference(std::string_view section = "", const std::vector<SceneSection>& sections = {});
 
 }  // namespace ejecta

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "base/simd.hpp"
-#include "scene/scene.hpp"
+#include "scene/choices.hpp"
 
 namespace ejecta {
 

@@ -8,7 +8,7 @@
 #include "base/simd.hpp"
 #include "particles/pair_lists.hpp"
 #include "particles/particles.hpp"
-#include "scene/scene.hpp"
+#include "scene/choices.hpp"
 #include "schemes/pair_records.hpp"
 
 namespace ejecta {

@@ -1,10 +1,10 @@
 #pragma once
-/// Choice of the smoothing length from the zeroth moment of the neighbours: seed 001 (Owen 2010), eqs (1)-(4).
+/// Choice of the smoothing length from the zeroth moment of the neighbours [Owen 2010, eqs 1-4].
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "scene/scene.hpp"
+#include "scene/choices.hpp"
 
 namespace ejecta {
 

@@ -1,0 +1,27 @@
+#pragma once
+/// The choices of a scene that also steer code which need not know the rest of it. They stand apart from scene.hpp so
+/// that a new key of a scene does not compile every pair pass anew.
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace ejecta {
+
+inline constexpr double unset = std::numeric_limits<double>::signaling_NaN();
+inline bool is_set(double value) { return !std::isnan(value); }
+using Triple = std::array<double, 3>;  ///< x, y, z; z is ignored in plane strain
+
+enum class Kernel { cubic_spline, quintic_spline, wendland_c2, wendland_c4 };
+enum class Precision { double_precision, mixed };
+enum class DistensionSolver { safe_newton, bisection, newton };
+
+/// reflecting: a wall, which solids press against and leave; symmetry: a plane that matter goes on behind.
+enum class BoundaryKind { open, periodic, reflecting, symmetry };
+
+/// Box with periodic or reflecting faces; axes that are open extend to infinity.
+struct Boundary {
+  std::array<BoundaryKind, 3> kind{BoundaryKind::open, BoundaryKind::open, BoundaryKind::open};  ///< x, y, z
+  Triple min{unset, unset, unset}, max{unset, unset, unset};                                     ///< m
+};
+
+}  // namespace ejecta
