@@ -52,7 +52,7 @@ int main(int argc, char** argv) {
   run->add_option("scene", options.scene_file, "scene file (TOML)")->required();
   run->add_option("--out", options.out, "run folder (default: runs/<scene.name>)");
   run->add_flag("--restart", options.restart, "go on from the last checkpoint in the run folder");
-  run->add_flag("--overwrite", options.overwrite, "replace the run folder if it exists");
+  run->add_flag("--overwrite", options.overwrite, "replace an earlier run in the run folder; files that no run has written stay");
   overrides(run);
   CLI::App* check = app.add_subcommand("check", "validate a scene; print stages, columns, memory and time");
   check->add_option("scene", options.scene_file, "scene file (TOML)")->required();

@@ -10,7 +10,7 @@ struct RunOptions {
   std::string out;                     ///< run folder; empty: runs/<scene.name>
   std::vector<std::string> overrides;  ///< key=value
   bool restart = false;                ///< go on from the last checkpoint in the run folder
-  bool overwrite = false;              ///< replace an existing run folder
+  bool overwrite = false;              ///< replace an earlier run in the run folder
 };
 
 int run_command(const RunOptions& options);

@@ -9,6 +9,7 @@
 #include "app/log.hpp"
 #include "app/options.hpp"
 #include "app/resources.hpp"
+#include "app/run_folder.hpp"
 #include "app/signals.hpp"
 #include "app/tables.hpp"
 #include "app/watch.hpp"
@@ -36,30 +37,13 @@ struct Job {
   Materials materials;
   std::string resolved;
   fs::path folder;
-  bool restart, overwrite, catalyst;
+  bool restart = false, overwrite = false, catalyst = false;
 };
 
-/// The run folder must be new (or empty), unless the run goes on in it or may replace it. Nothing is touched here.
-void check_folder(const RunOptions& options, const fs::path& folder) {
-  const bool there = fs::exists(folder) && !(fs::is_directory(folder) && fs::is_empty(folder));
-  if (there && !fs::is_directory(folder))
-    throw InputError(folder.string() + ": expected a folder for the run, got a file");
-  if (there && !options.restart && !options.overwrite)
-    throw InputError(folder.string() +
-                     ": expected a new folder, got one with files in it; use --out DIR for another, "
-                     "--restart to go on from its last checkpoint, or --overwrite to replace it");
-  if (options.restart && !latest_checkpoint(folder / "checkpoints"))
-    throw InputError(folder.string() + ": expected a checkpoint to restart from, found none");
-  // The nearest existing parent must let us in.
-  fs::path parent = fs::absolute(folder);
-  while (!fs::exists(parent)) parent = parent.parent_path();
-  if (!is_writable(parent)) throw InputError(parent.string() + ": expected a folder to write to, got no permission");
-}
-
 void prepare_folder(const Job& job) {
+  if (job.overwrite && !job.restart) clear_run_folder(job.folder);
   std::error_code failure;
-  if (job.overwrite && !job.restart) fs::remove_all(job.folder, failure);
-  if (!failure) fs::create_directories(job.folder, failure);
+  fs::create_directories(job.folder, failure);
   if (failure)
     throw InputError(fmt::format("{}: expected a folder to write to, got: {}", job.folder.string(), failure.message()));
   log_to_folder(job.folder, job.restart);
@@ -233,7 +217,7 @@ int run_command(const RunOptions& options) {
   job.folder = options.out.empty() ? fs::path("runs") / job.scene.name : fs::path(options.out);
   job.restart = options.restart;
   job.overwrite = options.overwrite;
-  check_folder(options, job.folder);
+  check_run_folder(options, job.folder);
   check_memory(job.scene, job.materials.list);
   set_threads(job.scene.threads > 0 ? job.scene.threads : available_cores());
   if (job.scene.insitu.enabled) {

@@ -1,0 +1,117 @@
+#include "app/run_folder.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/resources.hpp"
+#include "base/errors.hpp"
+#include "output/checkpoint.hpp"
+
+namespace ejecta {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What a run writes, folder by folder; "#" stands for a number (of a step), "*" for any text.
+struct Written {
+  std::string folder;  ///< empty: the run folder itself
+  std::vector<std::string> names;
+};
+const std::array written{
+    Written{"monitor", {"index.html", "status.json", "status.js"}},
+    Written{"checkpoints", {"checkpoint_#.h5", "failed_#.h5"}},
+    Written{"snapshots", {"snapshot_#.h5"}},
+    Written{"images", {"data.csv", "*_#.png"}},
+    Written{"figures",
+            {"compaction.*", "crush_curve.csv", "fragment_distribution.*", "largest_fragment.*", "energy.*"}},
+    Written{"",
+            {"resolved.toml", "run.log", "insitu.log", "history.csv", "timers.csv", "fragments.csv",
+             "fragment_distribution.csv", "largest_fragment.csv", "summary.json", "movie_*.mp4"}}};
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+bool matches(std::string_view pattern, std::string_view name) {
+  if (pattern.empty()) return name.empty();
+  if (pattern[0] == '*')
+    return matches(pattern.substr(1), name) || (!name.empty() && matches(pattern, name.substr(1)));
+  if (pattern[0] == '#')
+    return !name.empty() && is_digit(name[0]) &&
+           (matches(pattern.substr(1), name.substr(1)) || matches(pattern, name.substr(1)));
+  return !name.empty() && name[0] == pattern[0] && matches(pattern.substr(1), name.substr(1));
+}
+
+bool is_written(const Written& place, std::string name) {
+  if (name.ends_with(".part")) name.resize(name.size() - 5);  // left behind where a run was killed
+  return std::ranges::any_of(place.names, [&](const std::string& pattern) { return matches(pattern, name); });
+}
+
+bool holds_a_run(const fs::path& folder) {
+  return fs::is_regular_file(folder / "resolved.toml") &&
+         (fs::is_regular_file(folder / "run.log") || fs::is_regular_file(folder / "monitor/status.json") ||
+          fs::is_directory(folder / "checkpoints"));
+}
+
+/// True if `folder` is the other one or lies around it.
+bool holds(const fs::path& folder, const fs::path& other) {
+  const fs::path outer = fs::weakly_canonical(folder), inner = fs::weakly_canonical(other);
+  return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
+}
+
+/// What a folder is that no run may replace.
+std::optional<std::string> why_precious(const RunOptions& options, const fs::path& folder) {
+  const char* home = std::getenv("HOME");
+  const fs::path scene = fs::absolute(options.scene_file);  // perhaps a link to a file elsewhere
+  if (holds(folder, scene.parent_path()) || holds(folder, fs::weakly_canonical(scene).parent_path()))
+    return "that of the scene file";
+  if (holds(folder, fs::current_path())) return "the working directory";
+  if (home && *home && holds(folder, home)) return "the home directory";
+  return std::nullopt;
+}
+
+}  // namespace
+
+void check_run_folder(const RunOptions& options, const fs::path& folder) {
+  if (fs::exists(folder) && !fs::is_directory(folder))
+    throw InputError(folder.string() + ": expected a folder for the run, got a file");
+  const bool filled = fs::exists(folder) && !fs::is_empty(folder);
+  if (options.restart) {
+    if (!latest_checkpoint(folder / "checkpoints"))
+      throw InputError(folder.string() + ": expected a checkpoint to restart from, found none");
+  } else if (options.overwrite) {
+    if (const auto reason = why_precious(options, folder))
+      throw InputError(folder.string() + ": --overwrite: expected a folder of its own for the run, got " + *reason +
+                       " or one around it");
+    if (filled && !holds_a_run(folder))
+      throw InputError(folder.string() +
+                       ": --overwrite: expected an empty folder or an earlier run, got a folder with other files in it");
+  } else if (filled) {
+    throw InputError(folder.string() +
+                     ": expected a new folder, got one with files in it; use --out DIR for another, "
+                     "--restart to go on from its last checkpoint, or --overwrite to replace an earlier run");
+  }
+  // The nearest existing parent must let us in.
+  fs::path parent = fs::absolute(folder);
+  while (!fs::exists(parent)) parent = parent.parent_path();
+  if (!is_writable(parent)) throw InputError(parent.string() + ": expected a folder to write to, got no permission");
+}
+
+void clear_run_folder(const fs::path& folder) {
+  if (!fs::exists(folder)) return;
+  for (const Written& place : written) {
+    const fs::path inside = folder / place.folder;
+    if (!fs::is_directory(inside)) continue;
+    std::vector<fs::path> files;
+    for (const fs::directory_entry& entry : fs::directory_iterator(inside))
+      if (!fs::is_directory(entry.symlink_status()) && is_written(place, entry.path().filename().string()))
+        files.push_back(entry.path());
+    for (const fs::path& file : files) fs::remove(file);
+    if (!place.folder.empty() && fs::is_empty(inside) && !fs::is_symlink(inside)) fs::remove(inside);
+  }
+}
+
+}  // namespace ejecta
