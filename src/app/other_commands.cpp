@@ -3,6 +3,7 @@
 #include "app/log.hpp"
 #include "app/options.hpp"
 #include "app/resources.hpp"
+#include "base/data_folder.hpp"
 #include "base/parallel.hpp"
 #include "commit.hpp"
 #include "material/material_reader.hpp"
@@ -37,7 +38,7 @@ void print_stages(const Scene& scene, const std::vector<Material>& materials) {
 
 }  // namespace
 
-std::string material_library() { return EJECTA_LIBRARY; }
+std::string material_library() { return data_folder() / "inputs" / "materials"; }
 
 int check_command(const std::string& scene_file, const std::vector<std::string>& overrides) {
   const Scene scene = read_scene(scene_file, overrides);

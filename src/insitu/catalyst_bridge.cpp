@@ -16,6 +16,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "base/data_folder.hpp"
 #include "base/errors.hpp"
 #include "insitu/headless_window.hpp"
 #include "insitu/image_index.hpp"
@@ -103,7 +104,7 @@ CatalystBridge::CatalystBridge(const std::vector<std::string>& scripts, Pipeline
   state_ = std::make_unique<State>(std::move(settings));
   use_headless_window();
   vtkPythonInterpreter::Initialize(0);
-  vtkPythonInterpreter::PrependPythonPath(EJECTA_SCRIPT_FOLDER);
+  vtkPythonInterpreter::PrependPythonPath((data_folder() / "catalyst_scripts").c_str());
   // Without output to the terminal ParaView's Python logger would write every step it takes.
   vtkPythonInterpreter::RunSimpleString("import logging, paraview; paraview.logger.setLevel(logging.WARNING)\n");
   state_->processor->Initialize();

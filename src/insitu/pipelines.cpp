@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "base/data_folder.hpp"
 #include "base/errors.hpp"
 #include "insitu/insitu_log.hpp"
 
@@ -42,7 +43,7 @@ std::string syntax_problem(const std::string& path) {
 }  // namespace
 
 std::vector<std::string> default_pipelines(bool fragments) {
-  const std::filesystem::path folder = std::filesystem::weakly_canonical(EJECTA_SCRIPT_FOLDER);
+  const std::filesystem::path folder = data_folder() / "catalyst_scripts";
   std::vector<std::string> scripts{folder / "slice.py", folder / "cutaway.py"};
   if (fragments) scripts.push_back(folder / "fragments.py");
   return scripts;

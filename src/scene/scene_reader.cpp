@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "base/data_folder.hpp"
 #include "base/errors.hpp"
 #include "scene/describe.hpp"
 
@@ -31,7 +32,7 @@ void find_pipelines(Scene& scene, const Document& document, Problems& problems) 
   for (std::string& pipeline : scene.insitu.pipelines) {
     if (pipeline == default_pipelines_name) continue;
     const fs::path beside = fs::path(scene.file).parent_path() / pipeline;  // an absolute path stays itself
-    const fs::path shipped = fs::path(EJECTA_SCRIPT_FOLDER) / pipeline;
+    const fs::path shipped = data_folder() / "catalyst_scripts" / pipeline;
     if (const bool own = fs::is_regular_file(beside); own || fs::is_regular_file(shipped)) {
       pipeline = fs::absolute(own ? beside : shipped).lexically_normal().string();
     } else {
