@@ -1,30 +1,23 @@
 #pragma once
-/// In situ: fragments, slices and the live columns go to Catalyst at the times of the frames.
+/// In situ: at the times of the frames fragments are found, and slices and the live columns drawn.
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
-#include "app/channels.hpp"
 #include "insitu/catalyst_bridge.hpp"
 #include "insitu/image_index.hpp"
-#include "render/image.hpp"
-#include "render/sampling.hpp"
+#include "observe/channels.hpp"
+#include "observe/columns.hpp"
+#include "observe/compaction.hpp"
+#include "observe/painter.hpp"
+#include "observe/schedule.hpp"
+#include "observe/view.hpp"
 #include "simulation/fragments.hpp"
 #include "simulation/simulation.hpp"
 
 namespace ejecta {
-
-/// Centre and width [m] of what the images show.
-struct View {
-  Triple center;
-  double size;
-};
-/// What the scene says, or a frame about the body that moves least.
-View choose_view(const Scene& scene);
-
-/// Shown when the scene gives no range for a field: from what the run sets out with, the same for all frames.
-std::map<std::string, ColourRange> default_ranges(const Scene& scene, const std::vector<Material>& materials,
-                                                  const Outset& outset);
 
 /// Wall time booked for in-situ work [s].
 double insitu_seconds(const StageTimers& timers);
@@ -35,7 +28,7 @@ class Frames final : public Observer<Dim> {
   /// With `catalyst` images are drawn by the pipelines, otherwise by Ejecta's own painter.
   Frames(const Simulation<Dim>& sim, std::filesystem::path folder, bool catalyst);
 
-  double next_time() const override;
+  double next_time() const override { return schedule_.next(); }
   void observe(Simulation<Dim>& sim, bool last) override;
 
   /// Fragments as of the last frame; nothing if the scene does not ask for them.
@@ -53,30 +46,22 @@ class Frames final : public Observer<Dim> {
   void sample(const Simulation<Dim>& sim);
   void draw_with_catalyst(Simulation<Dim>& sim);
   void draw_without_gl(const Simulation<Dim>& sim);
-  void paint(const Simulation<Dim>& sim, std::string_view name, const PixelGrid& grid, std::span<const Panel> panels);
-  void govern(const Simulation<Dim>& sim);
-  void collect_compaction(const Simulation<Dim>& sim);
-  void write_compaction_tables(const Simulation<Dim>& sim) const;
 
   std::filesystem::path folder_;
   View view_;
   std::map<std::string, ColourRange> ranges_;
-  PixelGrid grid_, column_grid_;
-  double column_density_max_ = 0;  ///< end of the colour bar [kg/m^2]
-  std::unique_ptr<CatalystBridge> bridge_;
+  FrameSchedule schedule_;
+  FrameGovernor governor_;
   FragmentTracker tracker_;
   std::optional<FragmentTable> fragments_;
   SampledImage slice_;
+  Painter painter_;
   FrameChannels<Dim> channels_;
-  std::vector<double> compaction_pressure_, compaction_distension_;
-  std::vector<std::int32_t> compaction_loading_;
-  std::vector<std::string> warnings_;
+  std::unique_ptr<CatalystBridge> bridge_;
   std::optional<ImageIndex> index_;  ///< of the images drawn without Catalyst
-  std::int64_t last_drawn_ = -1;
-  double next_ = 0;                              ///< time of the next frame, drawn or passed over [s]
-  double insitu_before_ = 0, steps_before_ = 0;  ///< wall time of either when the governor began to judge [s]
-  int frame_ = 0, drawn_ = 0, images_ = 0;
-  int stride_ = 1, passed_over_ = 0;  ///< the governor draws every stride-th frame only
+  CompactionPlot compaction_;
+  std::vector<std::string> warnings_;
+  int drawn_ = 0, images_ = 0;
 };
 
 }  // namespace ejecta
