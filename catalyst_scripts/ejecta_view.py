@@ -355,3 +355,4 @@ class View:
         writer.SetCompressionLevel(1)
         writer.SetInputData(image)
         writer.Write()
+        image.UnRegister(None)  # CaptureWindow hands its image over: nobody else would ever release it

@@ -1,7 +1,7 @@
 #include <filesystem>
 
 #include "app/checkpoints.hpp"
-#include "app/frames.hpp"
+#include "observe/frames.hpp"
 #include "app/log.hpp"
 #include "app/options.hpp"
 #include "base/errors.hpp"

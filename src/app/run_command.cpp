@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "app/checkpoints.hpp"
-#include "app/frames.hpp"
+#include "observe/frames.hpp"
 #include "app/log.hpp"
 #include "app/options.hpp"
 #include "app/resources.hpp"

@@ -3,7 +3,7 @@
 #include <chrono>
 #include <filesystem>
 
-#include "app/frames.hpp"
+#include "observe/frames.hpp"
 #include "output/fragment_files.hpp"
 #include "output/history.hpp"
 #include "sph/sph.hpp"

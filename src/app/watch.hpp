@@ -2,7 +2,7 @@
 /// Feeds the monitor page.
 #include <filesystem>
 
-#include "app/frames.hpp"
+#include "observe/frames.hpp"
 #include "output/fragment_files.hpp"
 #include "output/monitor.hpp"
 #include "sph/sph.hpp"

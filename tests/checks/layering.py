@@ -3,14 +3,14 @@
 
 - A folder includes only folders above it (and itself), in the order of LAYERS.
 - ParaView and VTK are seen in src/insitu only, HDF5 in src/output only, OpenMP in src/base/parallel.hpp only.
-- Nothing prints or exits but src/app and src/base/report*.
+- Nothing prints but src/app and src/observe, nothing exits but src/app.
 """
 import pathlib
 import re
 import sys
 
 LAYERS = ["base", "scene", "material", "model", "particles", "schemes", "sph", "simulation", "analysis", "render", "insitu",
-          "output", "app"]
+          "output", "observe", "app"]
 
 # What a line of code may match only in the files named by the second pattern, and what it is called.
 RESERVED = [
@@ -18,7 +18,7 @@ RESERVED = [
     (r'#\s*include\s*[<"](hdf5|H5)', r"src/output/", "HDF5"),
     (r'#\s*include\s*[<"]omp\.h|#\s*pragma\s+omp|\bomp_\w+\s*\(', r"src/base/parallel\.hpp$", "OpenMP"),
     (r"\b(printf|fprintf|vprintf|puts|fputs|putchar|perror)\s*\(|\bstd::(cout|cerr|clog)\b|\bfmt::print|\bspdlog::",
-     r"src/app/|src/base/report", "printing"),
+     r"src/app/|src/observe/", "printing"),
     (r"(?<![\w.>])(exit|quick_exit|abort)\s*\(|\bstd::(exit|quick_exit|abort)\b", r"src/app/", "ending the process"),
 ]
 

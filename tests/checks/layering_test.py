@@ -8,7 +8,7 @@ from layering import violations
 
 CLEAN = {
     "src/base/parallel.hpp": "#include <omp.h>\n#pragma omp parallel for\nint n = omp_get_max_threads();\n",
-    "src/base/report.cpp": '#include <spdlog/spdlog.h>\nvoid f() { spdlog::info("x"); }\n',
+    "src/observe/o.cpp": '#include <spdlog/spdlog.h>\n#include "output/h.hpp"\nvoid f() { spdlog::info("x"); }\n',
     "src/particles/a.hpp": '#include <vector>\n#include "base/parallel.hpp"\n#include "particles/b.hpp"\n',
     "src/insitu/v.cpp": "#include <vtkCellArray.h>\n",
     "src/output/h.cpp": "#include <hdf5.h>\n",
@@ -29,6 +29,7 @@ PLANTED = {
     "printf": ("src/material/bad.cpp", 'int x; /* a\nb */ void f() { printf("x"); }\n'),
     "cout": ("render/bad.cpp", "void f() { std::cout << 1; }\n"),
     "the log": ("src/insitu/bad.cpp", 'void f() { spdlog::warn("x"); }\n'),
+    "an exit of an observer": ("src/observe/bad.cpp", "void f() { std::exit(1); }\n"),
     "exit": ("src/simulation/bad.cpp", "void f() { std::exit(1); }\n"),
     "an unknown folder": ("src/utils/a.hpp", "\n"),
 }

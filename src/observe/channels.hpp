@@ -12,18 +12,6 @@
 
 namespace ejecta {
 
-/// One live field of the particles.
-template <int Dim>
-FieldView field_view(const Particles<Dim>& particles, Field field);
-
-/// The columns that slices are sampled from.
-template <int Dim>
-ParticleView particle_view(const Particles<Dim>& particles);
-
-/// The columns of a simulation as fragments see them.
-template <int Dim>
-FragmentInput fragment_input(const Sph<Dim>& sim);
-
 /// The channels of one frame. They point into the simulation, the slice, the fragments and this object, which keeps the
 /// derived columns.
 template <int Dim>

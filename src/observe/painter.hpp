@@ -1,0 +1,34 @@
+#pragma once
+/// Ejecta's own pictures: slices where there is no OpenGL, and column densities.
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+
+#include "observe/view.hpp"
+#include "render/image.hpp"
+#include "sph/sph.hpp"
+
+namespace ejecta {
+
+class Painter {
+ public:
+  /// Pictures go to the folder `images`.
+  Painter(const Scene& scene, std::filesystem::path images);
+
+  /// slice_<step>.png: a panel for each field of the slice, of vectors their magnitude.
+  void paint_slice(const SampledImage& slice, const std::map<std::string, ColourRange>& ranges,
+                   const Clock& clock) const;
+  /// column_<step>.png. Its range is that of the first one painted: what lies undisturbed in the line of sight.
+  void paint_column_density(const SampledImage& column, const Clock& clock);
+
+ private:
+  void paint(const char* name, const PixelGrid& grid, std::span<const Panel> panels, const Clock& clock) const;
+
+  std::filesystem::path images_;
+  int width_, height_;             // pixels
+  FrameText text_;                 ///< time is filled in
+  double column_density_max_ = 0;  ///< kg/m^2
+};
+
+}  // namespace ejecta

@@ -1,0 +1,23 @@
+#pragma once
+/// Pictures of the particles by the true kernel.
+#include <vector>
+
+#include "particles/particles.hpp"
+#include "render/sampling.hpp"
+#include "scene/scene.hpp"
+
+namespace ejecta {
+
+/// Fields of a slice: what an impact is about, else what a gas is about.
+template <int Dim>
+std::vector<Field> slice_fields(const Particles<Dim>& particles);
+
+/// The slice fields in the plane y = plane_y [m], of the whole domain in 2D.
+template <int Dim>
+SampledImage make_slice(const Particles<Dim>& particles, Kernel kernel, const PixelGrid& grid, double plane_y);
+
+/// Mass per area seen along y.
+template <int Dim>
+SampledImage make_column_density(const Particles<Dim>& particles, Kernel kernel, const PixelGrid& grid);
+
+}  // namespace ejecta

@@ -1,0 +1,68 @@
+#include "observe/view.hpp"
+
+#include <gtest/gtest.h>
+
+namespace ejecta {
+namespace {
+
+Body ball(double radius, Triple center, Triple velocity) {
+  Body body;
+  body.radius = radius;
+  body.center = center;
+  body.velocity = velocity;
+  return body;
+}
+
+Scene two_balls() {
+  Scene scene;
+  scene.dimension = 3;
+  scene.bodies = {ball(0.01, {0, 0, 0.1}, {0, 0, -5000}), ball(0.05, {1, 2, 3}, {1, 0, 0})};
+  return scene;
+}
+
+TEST(View, IsAFrameAboutTheBodyThatMovesLeast) {
+  const View view = choose_view(two_balls());
+  EXPECT_EQ(view.center, (Triple{1, 2, 3}));
+  EXPECT_DOUBLE_EQ(view.size, 0.16);
+}
+
+TEST(View, OfABoxIsAsWideAsItsLongestSideInTheDimensionsThereAre) {
+  Scene scene = two_balls();
+  scene.bodies[1].size = {0.1, 0.2, 7};
+  EXPECT_DOUBLE_EQ(choose_view(scene).size, 11.2);
+  scene.dimension = 2;
+  EXPECT_DOUBLE_EQ(choose_view(scene).size, 0.32);
+}
+
+TEST(View, TakesFromTheSceneWhatItGives) {
+  Scene scene = two_balls();
+  scene.insitu.view_center[2] = 0;
+  scene.insitu.view_size = 0.5;
+  const View view = choose_view(scene);
+  EXPECT_EQ(view.center, (Triple{1, 2, 0}));
+  EXPECT_EQ(view.size, 0.5);
+}
+
+TEST(View, FitsIntoEveryPanelInBothDirections) {
+  const Scene scene = two_balls();
+  const View view = choose_view(scene);
+  for (int panels : {1, 3}) {
+    const PixelGrid grid = panel_grid(view, scene, panels);
+    EXPECT_GE(grid.width * grid.pixel, view.size * (1 - 1e-12)) << panels;
+    EXPECT_GE(grid.height * grid.pixel, view.size * (1 - 1e-12)) << panels;
+    // The middle of the picture is the centre in x and z.
+    EXPECT_NEAR(grid.first[0] + 0.5 * (grid.width - 1) * grid.pixel, 1, 1e-12);
+    EXPECT_NEAR(grid.first[1] + 0.5 * (grid.height - 1) * grid.pixel, 3, 1e-12);
+  }
+}
+
+TEST(View, HeadingIsTheTitleOrElseTheName) {
+  Scene scene = two_balls();
+  scene.name = "balls";
+  EXPECT_EQ(heading(scene), "balls");
+  scene.title = "Two balls";
+  EXPECT_EQ(heading(scene), "Two balls");
+}
+
+}  // namespace
+}  // namespace ejecta
