@@ -10,6 +10,7 @@
 #include "base/errors.hpp"
 #include "insitu/gl_probe.hpp"
 #include "material/material_reader.hpp"
+#include "model/package_kind.hpp"
 
 namespace {
 
@@ -80,7 +81,7 @@ int main(int argc, char** argv) {
     if (*check) return check_command(options.scene_file, options.overrides);
     if (*movie) return movie_command(folder, frames_per_second);
     if (*replay) return replay_command(folder, options.out);
-    if (*describe) fmt::print("{}", reference(section));
+    if (*describe) fmt::print("{}", reference(section, package_sections()));
     if (*info) return info_command();
     return 0;
   } catch (const InputError& error) {

@@ -10,45 +10,21 @@
 #include "render/movie.hpp"
 #include "scene/scene_reader.hpp"
 #include "scene/units.hpp"
-#include "sph/stages.hpp"
+#include "simulation/simulation.hpp"
 
 namespace ejecta {
-
-namespace {
-
-std::string names(const std::vector<Field>& fields) {
-  std::string text;
-  for (Field f : fields) text += (text.empty() ? "" : ", ") + std::string(info(f).name);
-  return text.empty() ? "-" : text;
-}
-
-template <int Dim>
-void print_stages(const Scene& scene, const std::vector<Material>& materials) {
-  const auto stages = choose_stages<Dim>(scene, materials);
-  fmt::print("stages\n");
-  for (const auto& stage : stages)
-    fmt::print("  {:<18} reads  {}\n  {:<18} writes {}\n", stage.name, names(stage.reads), "", names(stage.writes));
-  fmt::print("columns\n");
-  for (Field field : fields_of(stages)) {
-    const FieldInfo& f = info(field);
-    fmt::print("  {:<18} {:>2} x [{}]{:>{}} {}\n", f.name, components(f.shape, Dim), f.unit, "",
-               9 - static_cast<int>(std::min<std::size_t>(9, f.unit.size())), f.doc);
-  }
-}
-
-}  // namespace
 
 std::string material_library() { return data_folder() / "inputs" / "materials"; }
 
 int check_command(const std::string& scene_file, const std::vector<std::string>& overrides) {
-  const Scene scene = read_scene(scene_file, overrides);
+  const Scene scene = read_scene(scene_file, overrides, package_sections());
   const Materials materials = read_materials(scene, material_library());
   check_memory(scene, materials.list);
-  if (scene.dimension == 2) {
-    print_stages<2>(scene, materials.list);
-  } else {
-    print_stages<3>(scene, materials.list);
-  }
+  const Simulation sim = set_up_simulation(scene, materials.list);
+  for (const auto& package : sim.packages) fmt::print("{}", package->outline());
+  fmt::print("packages\n");
+  for (const auto& package : sim.packages)
+    fmt::print("  {:<18} {} elements, {} bytes\n", package->name(), package->elements(), package->bytes());
   const Estimate e = estimate(scene, materials.list);
   fmt::print("estimate\n");
   fmt::print("  particles          {:.0f}\n", e.particles);

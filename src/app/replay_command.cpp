@@ -1,12 +1,13 @@
 #include <filesystem>
 
-#include "app/checkpoints.hpp"
 #include "observe/frames.hpp"
 #include "app/log.hpp"
 #include "app/options.hpp"
 #include "base/errors.hpp"
 #include "insitu/gl_probe.hpp"
 #include "material/material_reader.hpp"
+#include "model/package_kind.hpp"
+#include "observe/checkpoints.hpp"
 #include "scene/scene_reader.hpp"
 
 namespace ejecta {
@@ -16,11 +17,11 @@ namespace {
 template <int Dim>
 int replay_in(const Scene& scene, const Materials& materials, const Checkpoint& checkpoint,
               const std::filesystem::path& out) {
-  auto sim = set_up<Dim>(scene, materials.list);
-  restore(*sim, checkpoint);
+  Simulation sim = set_up_simulation(scene, materials.list);
+  restore(sim, checkpoint);
   std::filesystem::create_directories(out);
-  Frames<Dim> frames(*sim, out, gl_works());
-  frames.observe(*sim, true);
+  Frames<Dim> frames(dynamic_cast<const Sph<Dim>&>(*sim.packages.front()), out, gl_works());
+  frames.observe(sim, true);
   spdlog::info("{} images in {}", frames.images(), (out / "images").string());
   return 0;
 }
@@ -32,7 +33,7 @@ int replay_command(const std::string& folder, const std::string& out) {
   const auto file = latest_checkpoint(run / "checkpoints");
   if (!file) throw InputError(folder + ": expected a run folder with a checkpoint, found none");
   const Checkpoint checkpoint = read_checkpoint(*file);
-  const Scene scene = parse_scene(checkpoint.scene, file->string());
+  const Scene scene = parse_scene(checkpoint.scene, file->string(), {}, package_sections());
   const Materials materials = read_materials(scene, material_library());
   const std::filesystem::path to = out.empty() ? run / "replay" : std::filesystem::path(out);
   return scene.dimension == 2 ? replay_in<2>(scene, materials, checkpoint, to)

@@ -58,14 +58,6 @@ double resting_sound_speed(const Material& material, const Body& body) {
 
 bool is_writable(const std::filesystem::path& folder) { return access(folder.c_str(), W_OK | X_OK) == 0; }
 
-std::int64_t folder_bytes(const std::filesystem::path& folder) {
-  std::int64_t bytes = 0;
-  if (std::filesystem::exists(folder))
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
-      if (entry.is_regular_file()) bytes += static_cast<std::int64_t>(entry.file_size());
-  return bytes;
-}
-
 Estimate estimate(const Scene& scene, const std::vector<Material>& materials) {
   Estimate e;
   double least_step = std::numeric_limits<double>::infinity();
@@ -97,36 +89,13 @@ void check_memory(const Scene& scene, const std::vector<Material>& materials) {
                   scene.file, free / 1e9, e.particles, needed / 1e9));
 }
 
-template <int Dim>
-std::size_t memory_bytes(const Sph<Dim>& sim) {
-  return sim.particles.bytes() + sim.lists.bytes() + sim.pass->bytes() + sim.intact.capacity() * sizeof(double) +
-         sim.order.capacity() * sizeof(std::uint32_t) + sim.shape_scratch.bytes();
-}
-
-template <int Dim>
-double mean_neighbours(const Sph<Dim>& sim) {
-  const double radius = kernel_support(sim.scene.numerics.kernel);
-  const auto sum = sim.particles.column(Field::neighbour_sum);
-  const double unit_ball = Dim == 2 ? std::numbers::pi : 4 * std::numbers::pi / 3;
-  return parallel_sum<double>(sum.size(),
-                              [&](std::size_t i) {
-                                return unit_ball * std::pow(radius * sim.support->effective_nodes_per_h(sum[i]), Dim);
-                              }) /
-         static_cast<double>(sum.size());
-}
-
-std::string timer_table(const StageTimers& timers) {
+std::string timer_table(std::span<const StageTimers::Entry> times) {
   double total = 0;
-  for (const auto& e : timers.entries()) total += e.seconds;
+  for (const auto& e : times) total += e.seconds;
   std::string text = fmt::format("{:<22}{:>12}{:>9}{:>10}\n", "stage", "seconds", "share", "calls");
-  for (const auto& e : timers.entries())
+  for (const auto& e : times)
     text += fmt::format("{:<22}{:>12.3f}{:>8.1f}%{:>10}\n", e.name, e.seconds, 100 * e.seconds / total, e.calls);
   return text;
 }
-
-template std::size_t memory_bytes<2>(const Sph<2>&);
-template std::size_t memory_bytes<3>(const Sph<3>&);
-template double mean_neighbours<2>(const Sph<2>&);
-template double mean_neighbours<3>(const Sph<3>&);
 
 }  // namespace ejecta

@@ -24,6 +24,12 @@ struct Vote {
   std::size_t culprit = nobody;  ///< particle, cell, ...: Package::describe() knows
 };
 
+/// Something to say when a run is over.
+struct Remark {
+  std::string text;
+  bool worrying = false;
+};
+
 class Package {
  public:
   virtual ~Package() = default;
@@ -44,6 +50,9 @@ class Package {
   virtual void persist(Archive& archive) = 0;
 
   virtual Quantities quantities() const { return {}; }
+  /// What it does, for `ejecta check`: lines of text.
+  virtual std::string outline() const { return ""; }
+  virtual std::vector<Remark> remarks() const { return {}; }
   /// Live fields for the in-situ pipelines; the views are good until the next step.
   virtual std::vector<Channel> channels() const { return {}; }
   /// Of a culprit, for messages.

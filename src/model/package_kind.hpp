@@ -28,13 +28,4 @@ inline std::vector<SceneSection> package_sections() {
   return sections;
 }
 
-/// Those that a scene asks for.
-inline std::vector<std::unique_ptr<Package>> set_up_packages(const Scene& scene, const std::vector<Material>& materials) {
-  std::vector<std::unique_ptr<Package>> packages;
-  for (const PackageKind& kind : package_kinds())
-    if (kind.section.name.empty() || scene.sections.contains(kind.section.name))
-      packages.push_back(kind.set_up(scene, materials));
-  return packages;
-}
-
 }  // namespace ejecta

@@ -14,9 +14,9 @@ namespace {
 
 /// All that the pipelines are told of a run.
 template <int Dim>
-PipelineSettings pipeline_settings(const Sph<Dim>& sim, const std::filesystem::path& folder, const View& view,
+PipelineSettings pipeline_settings(const Sph<Dim>& sph, const std::filesystem::path& folder, const View& view,
                                    const std::map<std::string, ColourRange>& ranges) {
-  const Scene& scene = sim.scene;
+  const Scene& scene = sph.scene;
   PipelineSettings settings;
   settings.run_folder = std::filesystem::absolute(folder).string();
   settings.scene_title = heading(scene);
@@ -30,7 +30,7 @@ PipelineSettings pipeline_settings(const Sph<Dim>& sim, const std::filesystem::p
   settings.ranges = ranges;
   settings.nodes_per_h = scene.numerics.nodes_per_h;
   settings.radius_per_smoothing_length = 0.6 / settings.nodes_per_h;
-  settings.fragment_target = scene.bodies[target_body(scene, sim.outset.bodies)].name;
+  settings.fragment_target = scene.bodies[target_body(scene, sph.outset.bodies)].name;
   settings.kernel_support = kernel_support(scene.numerics.kernel);
   return settings;
 }
@@ -45,34 +45,35 @@ double insitu_seconds(const StageTimers& timers) {
 }
 
 template <int Dim>
-Frames<Dim>::Frames(const Sph<Dim>& sim, std::filesystem::path folder, bool catalyst)
-    : folder_(std::move(folder)),
-      view_(choose_view(sim.scene)),
-      ranges_(colour_ranges(sim.scene, sim.materials, sim.outset)),
-      schedule_(sim.scene.time_end, sim.scene.insitu.frames),
-      governor_(sim.scene.insitu.max_share),
-      painter_(sim.scene, folder_ / "images") {
+Frames<Dim>::Frames(const Sph<Dim>& sph, std::filesystem::path folder, bool catalyst)
+    : sph_(sph),
+      folder_(std::move(folder)),
+      view_(choose_view(sph.scene)),
+      ranges_(colour_ranges(sph.scene, sph.materials, sph.outset)),
+      schedule_(sph.scene.time_end, sph.scene.insitu.frames),
+      governor_(sph.scene.insitu.max_share),
+      painter_(sph.scene, folder_ / "images") {
   std::filesystem::create_directories(folder_ / "images");
   if (!catalyst) return;
-  const Scene& scene = sim.scene;
+  const Scene& scene = sph.scene;
   bridge_ = std::make_unique<CatalystBridge>(pipeline_scripts(scene.insitu.pipelines, scene.fragments.enabled),
-                                             pipeline_settings(sim, folder_, view_, ranges_));
+                                             pipeline_settings(sph, folder_, view_, ranges_));
 }
 
 template <int Dim>
-void Frames<Dim>::resume(Sph<Dim>& sim) {
-  schedule_.resume(sim.clock.time);
-  if (sim.scene.fragments.enabled) find_fragments(sim);
+void Frames<Dim>::resume() {
+  schedule_.resume(sph_.clock.time);
+  if (sph_.scene.fragments.enabled) find_fragments();
 }
 
 template <int Dim>
-void Frames<Dim>::observe(Sph<Dim>& sim, bool last) {
+void Frames<Dim>::observe(Simulation& sim, bool last) {
   if (!schedule_.take(sim.clock.step, sim.clock.time, last)) return;
   ++drawn_;
-  if (sim.scene.fragments.enabled) sim.timers.time("in situ: fragments", [&] { find_fragments(sim); });
+  if (sim.scene.fragments.enabled) sim.timers.time("in situ: fragments", [&] { find_fragments(); });
   if (sim.scene.insitu.enabled) {
-    sim.timers.time("in situ: slice", [&] { sample(sim); });
-    sim.timers.time("in situ: images", [&] { bridge_ ? draw_with_catalyst(sim) : draw_without_gl(sim); });
+    sim.timers.time("in situ: slice", [&] { sample(); });
+    sim.timers.time("in situ: images", [&] { bridge_ ? draw_with_catalyst(sim) : draw_without_gl(); });
     if (const auto share = governor_.excess(insitu_seconds(sim.timers), sim.wall_seconds)) {
       schedule_.thin_out();
       warn(
@@ -81,34 +82,36 @@ void Frames<Dim>::observe(Sph<Dim>& sim, bool last) {
                       100 * *share, 100 * sim.scene.insitu.max_share));
     }
   }
-  compaction_.collect(sim.particles, sim.materials);
-  if (last) compaction_.write(folder_, sim.materials);
+  compaction_.collect(sph_.particles, sph_.materials);
+  if (last) compaction_.write(folder_, sph_.materials);
 }
 
-template <int Dim>
-void Frames<Dim>::warn(std::string text) {
+void FrameResults::warn(std::string text) {
   spdlog::warn("{}", text);
   warnings_.push_back(std::move(text));
 }
 
 template <int Dim>
-void Frames<Dim>::find_fragments(Sph<Dim>& sim) {
-  fragments_ = tracker_.update(fragment_input(sim), sim.scene.fragments);
+void Frames<Dim>::find_fragments() {
+  fragments_ = tracker_.update(fragment_input(sph_), sph_.scene.fragments);
 }
 
 template <int Dim>
-void Frames<Dim>::sample(const Sph<Dim>& sim) {
-  const Particles<Dim>& p = sim.particles;
-  const Kernel kernel = sim.scene.numerics.kernel;
+void Frames<Dim>::sample() {
+  const Particles<Dim>& p = sph_.particles;
+  const Scene& scene = sph_.scene;
+  const Kernel kernel = scene.numerics.kernel;
   const int panels = static_cast<int>(slice_fields(p).size());
-  slice_ = make_slice(p, kernel, panel_grid(view_, sim.scene, panels), view_.center[1]);
-  if (sim.scene.insitu.column_density)
-    painter_.paint_column_density(make_column_density(p, kernel, panel_grid(view_, sim.scene, 1)), sim.clock);
+  slice_ = make_slice(p, kernel, panel_grid(view_, scene, panels), view_.center[1]);
+  if (scene.insitu.column_density)
+    painter_.paint_column_density(make_column_density(p, kernel, panel_grid(view_, scene, 1)), sph_.clock);
 }
 
 template <int Dim>
-void Frames<Dim>::draw_with_catalyst(Sph<Dim>& sim) {
-  const std::vector<Channel> all = channels_.update(sim, slice_, view_.center[1], fragments_);
+void Frames<Dim>::draw_with_catalyst(const Simulation& sim) {
+  std::vector<Channel> all = channels_.update(sph_, slice_, view_.center[1], fragments_);
+  for (const auto& package : sim.packages)
+    for (Channel& channel : package->channels()) all.push_back(std::move(channel));
   const FrameReport report = bridge_->execute(sim.clock.step, sim.clock.time, all);
   images_ += static_cast<int>(report.images.size());
   for (const std::string& warning : report.warnings) {
@@ -118,10 +121,10 @@ void Frames<Dim>::draw_with_catalyst(Sph<Dim>& sim) {
 }
 
 template <int Dim>
-void Frames<Dim>::draw_without_gl(const Sph<Dim>& sim) {
+void Frames<Dim>::draw_without_gl() {
   if (!index_) index_.emplace(folder_ / "images");
-  painter_.paint_slice(slice_, ranges_, sim.clock);
-  images_ += static_cast<int>(index_->add_new_images(sim.clock.step, sim.clock.time).size());
+  painter_.paint_slice(slice_, ranges_, sph_.clock);
+  images_ += static_cast<int>(index_->add_new_images(sph_.clock.step, sph_.clock.time).size());
 }
 
 template class Frames<2>;

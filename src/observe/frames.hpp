@@ -15,6 +15,7 @@
 #include "observe/schedule.hpp"
 #include "observe/view.hpp"
 #include "analysis/fragments.hpp"
+#include "simulation/simulation.hpp"
 #include "sph/sph.hpp"
 
 namespace ejecta {
@@ -22,15 +23,9 @@ namespace ejecta {
 /// Wall time booked for in-situ work [s].
 double insitu_seconds(const StageTimers& timers);
 
-template <int Dim>
-class Frames final : public Observer<Dim> {
+/// What frames leave for others to show.
+class FrameResults : public Observer {
  public:
-  /// With `catalyst` images are drawn by the pipelines, otherwise by Ejecta's own painter.
-  Frames(const Sph<Dim>& sim, std::filesystem::path folder, bool catalyst);
-
-  double next_time() const override { return schedule_.next(); }
-  void observe(Sph<Dim>& sim, bool last) override;
-
   /// Fragments as of the last frame; nothing if the scene does not ask for them.
   const std::optional<FragmentTable>& fragments() const { return fragments_; }
   const std::vector<std::string>& warnings() const { return warnings_; }
@@ -38,30 +33,44 @@ class Frames final : public Observer<Dim> {
   void warn(std::string text);
   int images() const { return images_; }
   int drawn() const { return drawn_; }  ///< frames so far
+
+ protected:
+  std::optional<FragmentTable> fragments_;
+  std::vector<std::string> warnings_;
+  int drawn_ = 0, images_ = 0;
+};
+
+template <int Dim>
+class Frames final : public FrameResults {
+ public:
+  /// Pictures of `sph`, which outlives this. With `catalyst` images are drawn by the pipelines, otherwise by Ejecta's own
+  /// painter.
+  Frames(const Sph<Dim>& sph, std::filesystem::path folder, bool catalyst);
+
+  double next_time() const override { return schedule_.next(); }
+  void observe(Simulation& sim, bool last) override;
   /// After a restart: the next frame is the first one later than the checkpoint.
-  void resume(Sph<Dim>& sim);
+  void resume();
 
  private:
-  void find_fragments(Sph<Dim>& sim);
-  void sample(const Sph<Dim>& sim);
-  void draw_with_catalyst(Sph<Dim>& sim);
-  void draw_without_gl(const Sph<Dim>& sim);
+  void find_fragments();
+  void sample();
+  void draw_with_catalyst(const Simulation& sim);
+  void draw_without_gl();
 
+  const Sph<Dim>& sph_;
   std::filesystem::path folder_;
   View view_;
   std::map<std::string, ColourRange> ranges_;
   FrameSchedule schedule_;
   FrameGovernor governor_;
   FragmentTracker tracker_;
-  std::optional<FragmentTable> fragments_;
   SampledImage slice_;
   Painter painter_;
   FrameChannels<Dim> channels_;
   std::unique_ptr<CatalystBridge> bridge_;
   std::optional<ImageIndex> index_;  ///< of the images drawn without Catalyst
   CompactionPlot compaction_;
-  std::vector<std::string> warnings_;
-  int drawn_ = 0, images_ = 0;
 };
 
 }  // namespace ejecta

@@ -21,6 +21,15 @@ std::string bodies_json(const std::vector<BodySummary>& bodies) {
   return text.empty() ? "{}" : "{" + text + "\n  }";
 }
 
+std::string quantities_json(const Quantities& quantities) {
+  std::string text;
+  for (const Quantity& q : quantities)
+    text += fmt::format("{}    {}: {}", text.empty() ? "\n" : ",\n",
+                        to_json(q.unit.empty() ? q.name : fmt::format("{} [{}]", q.name, q.unit)),
+                        std::visit([](const auto& value) { return to_json(value); }, q.value));
+  return text.empty() ? "{}" : "{" + text + "\n  }";
+}
+
 }  // namespace
 
 std::string summary_json(const Summary& s) {
@@ -60,6 +69,7 @@ std::string summary_json(const Summary& s) {
   add("largest_fragment_mass_fraction", s.largest_fragment_mass_fraction);
   add("fragments", s.fragments);
   add_text("bodies", bodies_json(s.bodies));
+  add_text("quantities", quantities_json(s.quantities));
   add("exit", s.exit);
   return text + "\n}\n";
 }

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "model/quantity.hpp"
+
 namespace ejecta {
 
 /// What became of one body: its own matter over its own mass, wherever that matter is now.
@@ -42,6 +44,7 @@ struct Summary {
   std::optional<double> largest_fragment_mass_fraction;  ///< of the target, over its mass
   std::optional<std::int64_t> fragments;                 ///< of all bodies
   std::vector<BodySummary> bodies;                       ///< an object by name
+  Quantities quantities;                                 ///< the last row of history.csv, an object by name and unit
   int exit = 0;                                          ///< exit code: 0, 2, 3
 };
 

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "model/package.hpp"
+#include "model/package_kind.hpp"
 #include "scene/scene.hpp"
 
 namespace ejecta {
@@ -12,11 +12,14 @@ struct Simulation {
   Scene scene;
   std::vector<std::unique_ptr<Package>> packages;
   Clock clock;                     ///< at which all packages have arrived
-  Vote vote;                       ///< that won the last step
+  Vote vote{.reason = "start"};    ///< that won the last step
   const Package* voter = nullptr;  ///< whose it was
   StageTimers timers;              ///< of observers
   double wall_seconds = 0;         ///< spent in steps so far
 };
+
+/// The packages that a scene asks for, set up. Throws as PackageKind::set_up does.
+Simulation set_up_simulation(const Scene& scene, const std::vector<Material>& materials);
 
 /// Watches the run from outside: images, tables, checkpoints.
 class Observer {

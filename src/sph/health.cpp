@@ -5,6 +5,7 @@
 
 #include "base/errors.hpp"
 #include "base/parallel.hpp"
+#include "scene/names.hpp"
 #include "sph/sph.hpp"
 
 namespace ejecta {
@@ -27,6 +28,24 @@ std::string origin_of_failure(const Sph<Dim>& sph, std::size_t i) {
 template <int Dim>
 std::string Sph<Dim>::whereabouts(std::size_t i) const {
   return scene.bodies[static_cast<std::size_t>(particles.label(Label::body)[i])].name;
+}
+
+template <int Dim>
+std::vector<Remark> Sph<Dim>::remarks() const {
+  std::vector<Remark> list;
+  if (unconverged > 0)
+    list.push_back({fmt::format("the distension solver {} failed to converge in {} particle-steps",
+                                name_of(scene.numerics.distension_solver), unconverged),
+                    true});
+  if (const ShapeReport& r = shape_report; r.votes > 0) {
+    const double percent = 100 / static_cast<double>(r.votes);
+    list.push_back({fmt::format("shape of H: {} votes; {:.3g} % had too few neighbours, {:.3g} % changed as much as "
+                                "allowed, {:.3g} % reached the largest aspect",
+                                r.votes, percent * static_cast<double>(r.few_neighbours),
+                                percent * static_cast<double>(r.limited_change),
+                                percent * static_cast<double>(r.largest_aspect))});
+  }
+  return list;
 }
 
 template <int Dim>
@@ -63,6 +82,8 @@ void Sph<Dim>::check_health() const {
 
 template void Sph<2>::check_health() const;
 template void Sph<3>::check_health() const;
+template std::vector<Remark> Sph<2>::remarks() const;
+template std::vector<Remark> Sph<3>::remarks() const;
 template std::string Sph<2>::describe(std::size_t) const;
 template std::string Sph<3>::describe(std::size_t) const;
 template std::string Sph<2>::whereabouts(std::size_t) const;

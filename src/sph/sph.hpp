@@ -61,6 +61,8 @@ struct Sph final : Package {
   Kept kept() const override;
   void persist(Archive& archive) override;
   Quantities quantities() const override;
+  std::string outline() const override;
+  std::vector<Remark> remarks() const override;
   std::string describe(std::size_t particle) const override;
   std::string whereabouts(std::size_t particle) const override;
   std::size_t elements() const override { return particles.size(); }

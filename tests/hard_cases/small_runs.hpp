@@ -26,10 +26,10 @@ Outcome follow(Sph<Dim>& sim, int max_steps = 1000000) {
   const double end = sim.scene.time_end;
   try {
     for (int k = 0; k < max_steps && sim.clock.time < end * (1 - 1e-12); ++k) {
-      step(sim, end - sim.clock.time);
+      const Vote vote = step(sim, end - sim.clock.time);
       outcome.least_energy =
           std::min(outcome.least_energy, std::ranges::min(sim.particles.column(Field::specific_energy)));
-      outcome.shortest_step = std::min(outcome.shortest_step, sim.vote.dt);
+      outcome.shortest_step = std::min(outcome.shortest_step, vote.dt);
     }
   } catch (const SimulationError& error) {
     outcome.error = error.what();

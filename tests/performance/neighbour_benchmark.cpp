@@ -15,8 +15,9 @@ template <int Dim>
 void pair_list_build(benchmark::State& state) {
   auto& sim = body<Dim>("pumice", particles);
   const auto cluster = static_cast<std::size_t>(state.range(0));
-  spatial_order(sim.particles, cluster, sim.order);
-  sim.particles.reorder(sim.order);
+  std::vector<std::uint32_t> order;
+  spatial_order(sim.particles, cluster, order);
+  sim.particles.reorder(order);
   PairLists<Dim> lists;
   Measurement measured(state);
   measured.run([&] { lists.build(sim.particles, {2, cluster, 0, {}}); });
@@ -30,8 +31,9 @@ void pair_list_build(benchmark::State& state) {
 template <int Dim>
 void spatial_sort(benchmark::State& state) {
   auto& sim = body<Dim>("pumice", particles);
+  std::vector<std::uint32_t> order;
   Measurement measured(state);
-  measured.run([&] { spatial_order(sim.particles, 8, sim.order); });
+  measured.run([&] { spatial_order(sim.particles, 8, order); });
   const auto n = static_cast<double>(sim.particles.size());
   measured.items(n);
   measured.bytes(std::log2(n / 8) * n * (Dim * sizeof(double) + sizeof(std::uint32_t)));

@@ -30,8 +30,9 @@ struct PairCase {
     for (const Material& m : sim.materials) settings.rules.reference_density.push_back(m.bulk_density());
     settings.length_unit = power_of_two_below(sim.scene.spacing);
     const std::size_t cluster = cluster_size(settings.precision);
-    spatial_order(sim.particles, cluster, sim.order);
-    sim.particles.reorder(sim.order);
+    std::vector<std::uint32_t> order;
+    spatial_order(sim.particles, cluster, order);
+    sim.particles.reorder(order);
     lists.build(sim.particles, {kernel_support(work.kernel), cluster, 0, {}});
     pass = make_pair_pass<Dim>(settings);
   }

@@ -11,6 +11,8 @@
 
 #include "base/errors.hpp"
 #include "particles/smoothing_metric.hpp"
+#include "simulation/simulation.hpp"
+#include "sph/diagnostics.hpp"
 #include "sph/stages.hpp"
 #include "survival_runs.hpp"
 
@@ -128,9 +130,9 @@ Verdict judge(Sph<Dim>& sim, double speed, bool gas) {
   };
   try {
     while (sim.clock.time < end * (1 - 1e-12) && v.steps < most_steps) {
-      step(sim, end - sim.clock.time);
-      if (v.steps++ == 0) first_step = sim.vote.dt;
-      v.short_steps += sim.vote.dt < 1e-3 * first_step;
+      const Vote vote = step(sim, sim.scene, end - sim.clock.time);
+      if (v.steps++ == 0) first_step = vote.dt;
+      v.short_steps += vote.dt < 1e-3 * first_step;
       look();
     }
     if (v.steps == most_steps) v.kind = "too many steps";

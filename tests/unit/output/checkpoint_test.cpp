@@ -43,7 +43,7 @@ TEST_F(CheckpointTest, RoundTripIsBitwise) {
   EXPECT_EQ(back.time, view.time);
   EXPECT_EQ(back.dt, view.dt);
   EXPECT_EQ(back.step, 42);
-  EXPECT_EQ(back.particles, 1000u);
+  EXPECT_EQ(back.size(""), 1000u);
   EXPECT_EQ(back.scene, view.scene);
   EXPECT_EQ(back.scalar("initial_energy"), 2.5);
   EXPECT_EQ(back.column("position_x"), x);

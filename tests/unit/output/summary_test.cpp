@@ -49,6 +49,7 @@ TEST(Summary, HasExactlyThePromisedKeysInOrder) {
                                           "largest_fragment_mass_fraction",
                                           "fragments",
                                           "bodies",
+                                          "quantities",
                                           "exit"};
   EXPECT_EQ(keys, promised);
 }

@@ -55,13 +55,13 @@ TEST(Diagnostics, PeakPressuresHalveTheMassOfTheBody) {
 
 TEST(Diagnostics, FacesTakeMomentumAndTorque) {
   Boundary boundary;
-  EXPECT_TRUE(keeps_momentum(boundary) && keeps_angular_momentum(boundary));
+  EXPECT_TRUE(kept_between(boundary).momentum && kept_between(boundary).angular_momentum);
   boundary.kind[1] = BoundaryKind::periodic;
-  EXPECT_TRUE(keeps_momentum(boundary));
-  EXPECT_FALSE(keeps_angular_momentum(boundary));
+  EXPECT_TRUE(kept_between(boundary).momentum);
+  EXPECT_FALSE(kept_between(boundary).angular_momentum);
   for (const BoundaryKind mirror : {BoundaryKind::reflecting, BoundaryKind::symmetry}) {
     boundary.kind[0] = mirror;
-    EXPECT_FALSE(keeps_momentum(boundary) || keeps_angular_momentum(boundary));
+    EXPECT_FALSE(kept_between(boundary).momentum || kept_between(boundary).angular_momentum);
   }
 }
 

@@ -196,43 +196,5 @@ TEST(Simulation, AnEnergyDriftBeyondTheLimitEndsIt) {
   EXPECT_THROW(advance(*sim, 20), SimulationError);
 }
 
-/// Wants to be called at fixed times.
-template <int Dim>
-struct Metronome : Observer<Dim> {
-  double next;
-  std::vector<double> times;
-  int last_calls = 0;
-  explicit Metronome(double first) : next(first) {}
-  double next_time() const override { return next; }
-  void observe(Sph<Dim>& sim, bool last) override {
-    times.push_back(sim.clock.time);
-    last_calls += last;
-    if (sim.clock.time >= next * (1 - 1e-12)) next += 0.01;
-  }
-};
-
-TEST(Simulation, RunMeetsTheTimesOfItsObserversAndTheEnd) {
-  const auto sim = start<2>(gas_tube, {"time.end=0.05 s"});
-  Metronome<2> metronome(0.01);
-  EXPECT_TRUE(run<2>(*sim, {&metronome}, [] { return false; }));
-  EXPECT_NEAR(sim->clock.time, 0.05, 1e-13);
-  EXPECT_EQ(metronome.last_calls, 1);
-  EXPECT_EQ(metronome.times.front(), 0);
-  for (const double due : {0.01, 0.02, 0.03, 0.04, 0.05})
-    EXPECT_TRUE(std::any_of(metronome.times.begin(), metronome.times.end(), [&](double t) {
-      return std::abs(t - due) < 1e-13;
-    })) << due;
-}
-
-TEST(Simulation, RunStopsWhenAskedOrAtTheStepLimit) {
-  const auto sim = start<2>(gas_tube, {"time.max_steps=7"});
-  Metronome<2> metronome(10);
-  EXPECT_FALSE(run<2>(*sim, {&metronome}, [] { return true; }));
-  EXPECT_EQ(sim->clock.step, 0);
-  EXPECT_EQ(metronome.last_calls, 1);
-  run<2>(*sim, {&metronome}, [] { return false; });
-  EXPECT_EQ(sim->clock.step, 7);
-}
-
 }  // namespace
 }  // namespace ejecta

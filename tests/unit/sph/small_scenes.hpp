@@ -6,6 +6,8 @@
 
 #include "material/material_reader.hpp"
 #include "scene/scene_reader.hpp"
+#include "simulation/simulation.hpp"
+#include "sph/diagnostics.hpp"
 #include "sph/sph.hpp"
 
 namespace ejecta {
@@ -67,6 +69,17 @@ template <int Dim>
 std::unique_ptr<Sph<Dim>> start(const std::string& text, const std::vector<std::string>& overrides = {}) {
   const Scene scene = parse_scene(text, "test.toml", overrides);
   return set_up<Dim>(scene, read_materials(scene, EJECTA_SOURCE_DIR "/inputs/materials").list);
+}
+
+/// One step of the particles alone.
+template <int Dim>
+Vote step(Sph<Dim>& sph, double dt_limit) {
+  return step(sph, sph.scene, dt_limit);
+}
+
+template <int Dim>
+void evaluate(Sph<Dim>& sph) {
+  sph.evaluate();
 }
 
 inline constexpr double no_limit = 1e300;  ///< for step(): no event to clip the step to

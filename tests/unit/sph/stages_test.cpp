@@ -19,10 +19,7 @@ std::vector<std::string> names(const std::vector<Stage<Dim>>& stages) {
 /// Bytes per particle of columns, pair lists and pair records.
 template <int Dim>
 double bytes_per_particle(const Sph<Dim>& sim) {
-  const std::size_t intact = sim.intact.capacity() * sizeof(double),
-                    order = sim.order.capacity() * sizeof(std::uint32_t);
-  return static_cast<double>(sim.particles.bytes() + sim.lists.bytes() + sim.pass->bytes() + intact + order) /
-         static_cast<double>(sim.particles.size());
+  return static_cast<double>(sim.bytes()) / static_cast<double>(sim.particles.size());
 }
 
 TEST(Stages, AGasHasNothingOfASolid) {

@@ -1,4 +1,4 @@
-#include "app/checkpoints.hpp"
+#include "observe/checkpoints.hpp"
 
 #include <fmt/format.h>
 

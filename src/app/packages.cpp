@@ -1,0 +1,12 @@
+/// The packages of Ejecta: to add one, add a line.
+#include "model/package_kind.hpp"
+#include "sph/particle_package.hpp"
+
+namespace ejecta {
+
+const std::vector<PackageKind>& package_kinds() {
+  static const std::vector<PackageKind> kinds{particle_package()};
+  return kinds;
+}
+
+}  // namespace ejecta

@@ -1,0 +1,62 @@
+#include "observe/status.hpp"
+
+#include "observe/tables.hpp"
+
+namespace ejecta {
+
+Status::Status(const Simulation& sim, std::filesystem::path folder, const FrameResults& frames, FragmentContext context)
+    : folder_(std::move(folder)),
+      frames_(frames),
+      monitor_(folder_),
+      context_(std::move(context)),
+      first_time_(sim.clock.time),
+      first_wall_(sim.wall_seconds),
+      first_step_(sim.clock.step) {
+  status_.scene = heading(sim.scene);
+  status_.time_end = sim.scene.time_end;
+  for (const auto& package : sim.packages) status_.particles += static_cast<std::int64_t>(package->elements());
+  if (sim.scene.fragments.enabled) status_.smallest_fragment = context_.share(context_.smallest);
+  status_.fragment_target = context_.bodies[context_.target];
+}
+
+void Status::gather(const Simulation& sim) {
+  status_.step = sim.clock.step;
+  status_.time = sim.clock.time;
+  status_.dt = sim.clock.dt;
+  status_.limited_by = std::string(sim.vote.reason);
+  status_.wall_s = sim.wall_seconds + insitu_seconds(sim.timers);
+  if (const double wall = sim.wall_seconds - first_wall_; wall > 0)
+    status_.particle_steps_per_s =
+        static_cast<double>(status_.particles) * static_cast<double>(sim.clock.step - first_step_) / wall;
+  if (const double done = sim.clock.time - first_time_; done > 0)
+    status_.eta_s = (status_.wall_s - first_wall_) * (status_.time_end - sim.clock.time) / done;
+  for (const Quantity& q : quantities(sim, frames_, context_)) {
+    if (!q.plotted) continue;
+    const double value = std::get<double>(q.value);
+    status_.record(q.name, q.unit, sim.clock.time, value);
+    if (q.name == "energy error") status_.energy_error = value;
+    if (q.name == "angular momentum error") status_.angular_momentum_error = value;
+  }
+  status_.fragment_masses.clear();
+  if (frames_.fragments())
+    for (const Fragment& f : frames_.fragments()->fragments)
+      if (const double m = f.mass_of(context_.target); m > 0) status_.fragment_masses.push_back(context_.share(m));
+  status_.views = read_views(folder_);
+  status_.warnings = frames_.warnings();
+}
+
+void Status::observe(Simulation& sim, bool) {
+  if (!monitor_.due()) return;
+  sim.timers.time("monitor", [&] {
+    gather(sim);
+    monitor_.update(status_);
+  });
+}
+
+void Status::conclude(const Simulation& sim, RunState state) {
+  gather(sim);
+  status_.state = state;
+  monitor_.update(status_, true);
+}
+
+}  // namespace ejecta

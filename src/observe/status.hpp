@@ -1,0 +1,31 @@
+#pragma once
+/// Feeds the monitor page.
+#include <filesystem>
+
+#include "observe/frames.hpp"
+#include "output/fragment_files.hpp"
+#include "output/monitor.hpp"
+#include "simulation/simulation.hpp"
+
+namespace ejecta {
+
+class Status final : public Observer {
+ public:
+  Status(const Simulation& sim, std::filesystem::path folder, const FrameResults& frames, FragmentContext context);
+  void observe(Simulation& sim, bool last) override;
+  /// The last word of the run.
+  void conclude(const Simulation& sim, RunState state);
+
+ private:
+  void gather(const Simulation& sim);
+
+  std::filesystem::path folder_;
+  const FrameResults& frames_;
+  Monitor monitor_;
+  MonitorStatus status_;
+  FragmentContext context_;
+  double first_time_, first_wall_;
+  std::int64_t first_step_;
+};
+
+}  // namespace ejecta

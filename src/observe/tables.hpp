@@ -1,0 +1,48 @@
+#pragma once
+/// history.csv, largest_fragment.csv and the progress line.
+#include <chrono>
+#include <filesystem>
+
+#include "observe/frames.hpp"
+#include "output/fragment_files.hpp"
+#include "output/history.hpp"
+#include "simulation/simulation.hpp"
+
+namespace ejecta {
+
+/// What the fragment tables are told about the run.
+template <int Dim>
+FragmentContext fragment_context(const Sph<Dim>& sph);
+
+/// The quantities of the simulation, and of its fragments where they are looked for.
+Quantities quantities(const Simulation& sim, const FrameResults& frames, const FragmentContext& context);
+
+class Tables final : public Observer {
+ public:
+  Tables(const Scene& scene, const std::filesystem::path& folder, FrameResults& frames, FragmentContext context,
+         std::optional<double> resume_at);
+  void observe(Simulation& sim, bool last) override;
+
+ private:
+  double interval_;
+  double next_ = 0;
+  FrameResults& frames_;
+  FragmentContext context_;
+  History history_;
+  std::optional<LargestFragmentHistory> largest_;
+  bool warned_ = false;  ///< that angular momentum drifts
+};
+
+/// One line every few seconds: time, step and what limits it, speed, energy error, time to go.
+class Progress final : public Observer {
+ public:
+  void observe(Simulation& sim, bool last) override;
+
+ private:
+  using clock = std::chrono::steady_clock;
+  clock::time_point start_ = clock::now(), shown_{};
+  double start_time_ = -1, start_wall_ = 0;
+  std::int64_t start_step_ = 0;
+};
+
+}  // namespace ejecta

@@ -1,0 +1,15 @@
+/// Apart from the time loop, so that a program may do without the list of packages.
+#include "simulation/simulation.hpp"
+
+namespace ejecta {
+
+Simulation set_up_simulation(const Scene& scene, const std::vector<Material>& materials) {
+  Simulation sim;
+  sim.scene = scene;
+  for (const PackageKind& kind : package_kinds())
+    if (kind.section.name.empty() || scene.sections.contains(kind.section.name))
+      sim.packages.push_back(kind.set_up(scene, materials));
+  return sim;
+}
+
+}  // namespace ejecta
