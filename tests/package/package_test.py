@@ -5,12 +5,12 @@ from ejecta_run import SOD, RunTest, Table, ejecta, settings, summary
 
 OSCILLATORS = {"oscillators.count": 4, "oscillators.mass": "2 kg", "oscillators.period": "50 ms",
                "oscillators.amplitude": "3 mm", "oscillators.damping": "1 kg/s"}
-VALUES = {"resolution.spacing": "20 mm", "time.end": "0.1 s", "insitu.frames": 2, "output.history_interval": "2 ms", **OSCILLATORS}
+VALUES = {"time.end": "0.1 s", "insitu.frames": 2, "output.history_interval": "2 ms", **OSCILLATORS}
 
 
 class Package(RunTest):
     def test_it_is_there_only_if_the_scene_asks_for_it(self):
-        out = self.run_scene(SOD, "without", {"resolution.spacing": "20 mm", "insitu.enabled": "false"})
+        out = self.run_scene(SOD, "without", {"insitu.enabled": "false"})
         self.assertNotIn("displacement", Table(out / "history.csv").names)
         self.assertNotIn("oscillators", (out / "resolved.toml").read_text())
 
