@@ -16,7 +16,7 @@ namespace {
   throw InputError(fmt::format("expected {}, got {}", expected, to_text(got)));
 }
 
-std::string with_limits(std::string what, const Limits& limits, std::string_view unit) {
+std::string with_limits(const std::string& what, const Limits& limits, std::string_view unit) {
   const std::string text = to_text(limits, unit);
   return text.empty() ? what : what + ", " + text;
 }
@@ -229,6 +229,7 @@ void Problems::throw_if_any() const {
   auto sorted = messages_;
   std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<std::string> texts;
+  texts.reserve(sorted.size());
   for (auto& [line, text] : sorted) texts.push_back(std::move(text));
   throw InputError(std::move(texts));
 }

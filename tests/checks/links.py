@@ -2,18 +2,24 @@
 """Checks the links of the documents. Usage: links.py [ROOT]; prints every broken one, exit status 1 if any.
 
 Every relative link or image of every *.md file in the tree (those that git would ignore left out) leads to a file or
-folder, and a part after # to a heading of it.
+folder, and a part after # to a heading of it. A path in `code` that begins with a folder of the tree exists, from the
+root of the tree, unless it holds a placeholder such as <name>.
 """
 import pathlib
 import re
 import sys
 
 IGNORED = re.compile(r"^(build[^/]*|runs|report|Testing|\.git)/")
+PATH = re.compile(r"`((?:src|render|tests|inputs|catalyst_scripts|docs)/[\w./-]*)(?: --?\w.*)?`")
 LINK = re.compile(r"\]\(\s*<?([^)\s>]+)>?[^)]*\)")
 
 
+def without_blocks(text):
+    return re.sub(r"^```.*?^```", "", text, flags=re.M | re.S)
+
+
 def without_code(text):
-    text = re.sub(r"^```.*?^```", "", text, flags=re.M | re.S)
+    text = without_blocks(text)
     return re.sub(r"`[^`\n]*`", lambda m: m.group().replace("](", "]_("), text)
 
 
@@ -40,6 +46,9 @@ def broken_links(root):
                 yield f"{name}: {link}: no such file"
             elif part and (target.suffix != ".md" or part not in anchors(target)):
                 yield f"{name}: {link}: no such heading"
+        for path in PATH.findall(without_blocks(page.read_text())):
+            if not (root / path).exists():
+                yield f"{name}: {path}: no such file"
 
 
 if __name__ == "__main__":

@@ -9,11 +9,13 @@ from links import broken_links
 GOOD = """# A page: with *points*, and `code`
 ![picture](pictures/a.png "title") [the page itself](#a-page-with-points-and-code) [folder](pictures) [web](https://x.y/z)
 [there](docs/b.md) [heading](docs/b.md#two-words) `a[i](j)`
+`docs/b.md` `docs/b.md --all` `src/<name>.cpp` `tests/*.md` `build/nothing`
 ```
 [not a link](nowhere.md)
 ```
 """
-BROKEN = ["[a](docs/c.md)", "![a](a.png)", "[a](docs/b.md#other)", "[a](#b)", "[a](pictures/a.png#part)"]
+BROKEN = ["[a](docs/c.md)", "![a](a.png)", "[a](docs/b.md#other)", "[a](#b)", "[a](pictures/a.png#part)",
+          "`docs/c.md`", "`src/base`", "`tests/run.py --all`"]
 
 
 class Links(unittest.TestCase):
