@@ -2,11 +2,10 @@
 /// Vectors of W lanes on the compiler's vector extensions: arithmetic, comparison and `mask ? a : b` are built in.
 /// The pair functions are written once over a value type V and instantiated with these; rounding is that of IEEE
 /// arithmetic in every lane, so f(a, b) = -f(b, a) holds bit for bit where the expression is antisymmetric.
-#if defined(__AVX512F__) || defined(__AVX2__)
-#include <immintrin.h>
-#endif
 #include <cmath>
 #include <cstddef>
+
+#include "base/intrinsics.hpp"
 
 namespace ejecta::simd {
 
@@ -90,16 +89,12 @@ inline V magnitude(V a) {
 inline Doubles fused(Doubles a, Doubles b, Doubles c) {
   return (Doubles)_mm512_fmadd_pd((__m512d)a, (__m512d)b, (__m512d)c);
 }
-inline Floats fused(Floats a, Floats b, Floats c) {
-  return (Floats)_mm512_fmadd_ps((__m512)a, (__m512)b, (__m512)c);
-}
+inline Floats fused(Floats a, Floats b, Floats c) { return (Floats)_mm512_fmadd_ps((__m512)a, (__m512)b, (__m512)c); }
 #elif defined(__AVX2__) && defined(__FMA__)
 inline Doubles fused(Doubles a, Doubles b, Doubles c) {
   return (Doubles)_mm256_fmadd_pd((__m256d)a, (__m256d)b, (__m256d)c);
 }
-inline Floats fused(Floats a, Floats b, Floats c) {
-  return (Floats)_mm256_fmadd_ps((__m256)a, (__m256)b, (__m256)c);
-}
+inline Floats fused(Floats a, Floats b, Floats c) { return (Floats)_mm256_fmadd_ps((__m256)a, (__m256)b, (__m256)c); }
 #else
 template <class V>
 inline V fused(V a, V b, V c) {

@@ -266,7 +266,7 @@ void PairPassOf<T, Dim, Kind, K>::cluster_rates(Particles<Dim>& particles, const
       closing -= simd::rounded(V((smooth + j[R::smooth]) * shared));
     }
     V limiter = viscosity_factor + j[R::viscosity_factor];
-    [[maybe_unused]] V own, uneven[Dim];  // uneven: what the stress of i gives more than that of j
+    [[maybe_unused]] V own{}, uneven[Dim];  // uneven: what the stress of i gives more than that of j
     if constexpr (Mixed)
       if (p.foreign) {
         own = members.own(p);
