@@ -4,8 +4,7 @@
 
 namespace ejecta {
 
-/// Defined in pair_pass_<kernel>_<dim>d.cpp and tensor_pass_<kernel>_<dim>d.cpp, one file each so that they compile
-/// side by side.
+/// Defined in sources of their own that EjectaPairPasses.cmake makes: one for each kernel, dimension and kind.
 template <int Dim, class K>
 std::unique_ptr<PairPass<Dim>> make_isotropic_pass_of(const PairPassSettings& settings);
 template <int Dim, class K>

@@ -1,6 +1,5 @@
 #pragma once
-/// The passes of one kernel, by what the settings ask. Included only by the pair_pass_ and tensor_pass_ files of the
-/// kernels.
+/// The passes of one kernel, by what the settings ask. Included only by the sources that EjectaPairPasses.cmake makes.
 #include "schemes/pair_pass_impl.hpp"
 
 namespace ejecta {

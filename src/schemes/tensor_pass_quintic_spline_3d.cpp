@@ -1,5 +1,0 @@
-#include "schemes/pair_pass_kinds.hpp"
-
-namespace ejecta {
-template std::unique_ptr<PairPass<3>> make_tensor_pass_of<3, QuinticSpline>(const PairPassSettings&);
-}  // namespace ejecta
