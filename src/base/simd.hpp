@@ -2,11 +2,10 @@
 /// Vectors of W lanes on the compiler's vector extensions: arithmetic, comparison and `mask ? a : b` are built in.
 /// The pair functions are written once over a value type V and instantiated with these; rounding is that of IEEE
 /// arithmetic in every lane, so f(a, b) = -f(b, a) holds bit for bit where the expression is antisymmetric.
-#if defined(__AVX512F__) || defined(__AVX2__)
-#include <immintrin.h>
-#endif
 #include <cmath>
 #include <cstddef>
+
+#include "base/intrinsics.hpp"
 
 namespace ejecta::simd {
 

@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "scene/units.hpp"
 
@@ -14,7 +15,7 @@ constexpr double worrying_angular_drift = 1e-3;
 constexpr std::chrono::seconds between_lines{5};
 
 std::string hours(double seconds) {
-  const auto s = static_cast<long>(seconds + 0.5);
+  const auto s = std::lround(seconds);
   return s >= 3600 ? fmt::format("{}:{:02d}:{:02d}", s / 3600, s / 60 % 60, s % 60)
                    : fmt::format("{}:{:02d}", s / 60, s % 60);
 }
