@@ -4,6 +4,7 @@ A pipeline makes one View, shows sources in it with the representations it likes
 catalyst_execute. Everything that could flicker (camera, colour ranges, units, image size) comes from the run's settings.
 Lengths are metres, all numbers SI; only what is written on an image is scaled to a readable unit.
 """
+import functools
 import json
 import math
 import os
@@ -39,20 +40,20 @@ NUMBER = "fragment_number"  # 0 is dust
 PALETTE = 120               # colours of fragments; numbers that differ by it look alike
 largest_fragment = 1        # its number, drawn in a colour of its own
 
-_settings = None
+_read = functools.lru_cache(1)(json.loads)
 _ranges = {}
 
 
 def settings():
-    """The run's settings and the SI units of its fields, as the simulation published them with the first frame."""
-    global _settings
-    if _settings is None:
-        _settings = json.loads(os.environ["EJECTA_FRAME"])
-    return _settings
+    """The run's settings and, from the first frame on, the SI units of its fields, as the simulation publishes them."""
+    return _read(os.environ["EJECTA_FRAME"])
 
 
 def channel(name):
-    """The source of a channel: particles, slice, ellipsoids or fragments."""
+    """The source of a channel: particles, slice, ellipsoids or fragments.
+
+    To be called where the script begins: only channels that have a source by then are made for the first frame.
+    """
     return PVTrivialProducer(registrationName=name)
 
 

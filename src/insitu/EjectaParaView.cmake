@@ -38,7 +38,7 @@ add_library(ejecta_insitu STATIC
   ${insitu}/pipelines.cpp ${insitu}/vtk_channels.cpp)
 target_compile_definitions(ejecta_insitu PRIVATE EJECTA_SCRIPT_FOLDER="${ejecta_root}/catalyst_scripts" OMPI_SKIP_MPICXX)
 target_link_libraries(ejecta_insitu PUBLIC ejecta_particles
-  PRIVATE ParaView::Catalyst ParaView::PythonCatalyst VTK::RenderingOpenGL2 VTK::FiltersSources VTK::PythonInterpreter)
+  PRIVATE ParaView::Catalyst ParaView::PythonCatalyst ParaView::RemotingServerManager VTK::RenderingOpenGL2 VTK::FiltersSources VTK::PythonInterpreter)
 
 if(EJECTA_GL STREQUAL "osmesa")
   find_library(OSMESA_LIBRARY OSMesa REQUIRED)

@@ -28,6 +28,9 @@ struct PipelineSettings {
   std::map<std::string, ColourRange> ranges;  ///< field -> fixed colour range [SI]
 };
 
+/// Names of the channels, by which scripts register the sources that read them.
+inline constexpr std::array channel_names{"particles", "slice", "ellipsoids", "fragments"};
+
 /// Absolute paths of the scripts drawn by default: slice, cutaway and, where fragments are followed, fragments.
 std::vector<std::string> default_pipelines(bool fragments);
 

@@ -48,6 +48,7 @@ template <int Dim>
 Frames<Dim>::Frames(const Simulation<Dim>& sim, std::filesystem::path folder, bool catalyst)
     : folder_(std::move(folder)),
       view_(choose_view(sim.scene)),
+      slice_grid_(panel_grid(view_, sim.scene, static_cast<int>(slice_fields(sim.particles).size()))),
       ranges_(colour_ranges(sim.scene, sim.materials, sim.outset)),
       schedule_(sim.scene.time_end, sim.scene.insitu.frames),
       governor_(sim.scene.insitu.max_share),
@@ -69,10 +70,14 @@ template <int Dim>
 void Frames<Dim>::observe(Simulation<Dim>& sim, bool last) {
   if (!schedule_.take(sim.clock.step, sim.clock.time, last)) return;
   ++drawn_;
-  if (sim.scene.fragments.enabled) sim.timers.time("in situ: fragments", [&] { find_fragments(sim); });
+  if (sim.scene.fragments.enabled) sim.timers.time("in situ: fragment search", [&] { find_fragments(sim); });
   if (sim.scene.insitu.enabled) {
-    sim.timers.time("in situ: slice", [&] { sample(sim); });
-    sim.timers.time("in situ: images", [&] { bridge_ ? draw_with_catalyst(sim) : draw_without_gl(sim); });
+    if (sim.scene.insitu.column_density) sim.timers.time("in situ: column density", [&] { draw_column_density(sim); });
+    if (bridge_) {
+      draw_with_catalyst(sim);
+    } else {
+      sim.timers.time("in situ: images", [&] { draw_without_gl(sim); });
+    }
     if (const auto share = governor_.excess(insitu_seconds(sim.timers), sim.wall_seconds)) {
       schedule_.thin_out();
       warn(
@@ -92,24 +97,39 @@ void Frames<Dim>::warn(std::string text) {
 }
 
 template <int Dim>
-void Frames<Dim>::find_fragments(Simulation<Dim>& sim) {
+void Frames<Dim>::find_fragments(const Simulation<Dim>& sim) {
   fragments_ = tracker_.update(fragment_input(sim), sim.scene.fragments);
 }
 
 template <int Dim>
-void Frames<Dim>::sample(const Simulation<Dim>& sim) {
+void Frames<Dim>::draw_column_density(const Simulation<Dim>& sim) {
+  const PixelGrid grid = panel_grid(view_, sim.scene, 1);
+  painter_.paint_column_density(make_column_density(sim.particles, sim.scene.numerics.kernel, grid), sim.clock);
+}
+
+/// Those that some script reads.
+template <int Dim>
+std::vector<Channel> Frames<Dim>::make_channels(Simulation<Dim>& sim) {
   const Particles<Dim>& p = sim.particles;
-  const Kernel kernel = sim.scene.numerics.kernel;
-  const int panels = static_cast<int>(slice_fields(p).size());
-  slice_ = make_slice(p, kernel, panel_grid(view_, sim.scene, panels), view_.center[1]);
-  if (sim.scene.insitu.column_density)
-    painter_.paint_column_density(make_column_density(p, kernel, panel_grid(view_, sim.scene, 1)), sim.clock);
+  const Numerics& numerics = sim.scene.numerics;
+  const double plane_y = view_.center[1];
+  std::vector<Channel> made;
+  const auto make = [&](const char* name, auto&& channel) {
+    if (bridge_->reads(name)) sim.timers.time(std::string("in situ: ") + name, [&] { made.push_back(channel()); });
+  };
+  make("particles", [&] { return channels_.particles(p, fragments_); });
+  make("slice", [&] { return channels_.slice(p, numerics.kernel, slice_grid_, plane_y); });
+  make("ellipsoids", [&] { return channels_.ellipsoids(p, plane_y, numerics.nodes_per_h); });
+  if (fragments_)
+    make("fragments", [&] { return channels_.fragments(*fragments_, target_body(sim.scene, sim.outset.bodies)); });
+  return made;
 }
 
 template <int Dim>
 void Frames<Dim>::draw_with_catalyst(Simulation<Dim>& sim) {
-  const std::vector<Channel> all = channels_.update(sim, slice_, view_.center[1], fragments_);
-  const FrameReport report = bridge_->execute(sim.clock.step, sim.clock.time, all);
+  const std::vector<Channel> channels = make_channels(sim);
+  FrameReport report;
+  sim.timers.time("in situ: images", [&] { report = bridge_->execute(sim.clock.step, sim.clock.time, channels); });
   images_ += static_cast<int>(report.images.size());
   for (const std::string& warning : report.warnings) {
     if (sim.scene.insitu.on_error == OnError::abort) throw SimulationError("in situ: " + warning);
@@ -120,7 +140,8 @@ void Frames<Dim>::draw_with_catalyst(Simulation<Dim>& sim) {
 template <int Dim>
 void Frames<Dim>::draw_without_gl(const Simulation<Dim>& sim) {
   if (!index_) index_.emplace(folder_ / "images");
-  painter_.paint_slice(slice_, ranges_, sim.clock);
+  const SampledImage slice = make_slice(sim.particles, sim.scene.numerics.kernel, slice_grid_, view_.center[1]);
+  painter_.paint_slice(slice, ranges_, sim.clock);
   images_ += static_cast<int>(index_->add_new_images(sim.clock.step, sim.clock.time).size());
 }
 

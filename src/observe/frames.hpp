@@ -42,19 +42,20 @@ class Frames final : public Observer<Dim> {
   void resume(Simulation<Dim>& sim);
 
  private:
-  void find_fragments(Simulation<Dim>& sim);
-  void sample(const Simulation<Dim>& sim);
+  void find_fragments(const Simulation<Dim>& sim);
+  void draw_column_density(const Simulation<Dim>& sim);
+  std::vector<Channel> make_channels(Simulation<Dim>& sim);
   void draw_with_catalyst(Simulation<Dim>& sim);
   void draw_without_gl(const Simulation<Dim>& sim);
 
   std::filesystem::path folder_;
   View view_;
+  PixelGrid slice_grid_;
   std::map<std::string, ColourRange> ranges_;
   FrameSchedule schedule_;
   FrameGovernor governor_;
   FragmentTracker tracker_;
   std::optional<FragmentTable> fragments_;
-  SampledImage slice_;
   Painter painter_;
   FrameChannels<Dim> channels_;
   std::unique_ptr<CatalystBridge> bridge_;
