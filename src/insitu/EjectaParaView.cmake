@@ -37,7 +37,7 @@ add_library(ejecta_insitu STATIC
   ${insitu}/catalyst_bridge.cpp ${insitu}/gl_probe.cpp ${insitu}/image_index.cpp ${insitu}/insitu_log.cpp
   ${insitu}/pipelines.cpp ${insitu}/vtk_channels.cpp)
 target_compile_definitions(ejecta_insitu PRIVATE EJECTA_SCRIPT_FOLDER="${ejecta_root}/catalyst_scripts" OMPI_SKIP_MPICXX)
-target_link_libraries(ejecta_insitu PUBLIC ejecta_particles
+target_link_libraries(ejecta_insitu PUBLIC ejecta_render
   PRIVATE ParaView::Catalyst ParaView::PythonCatalyst ParaView::RemotingServerManager VTK::RenderingOpenGL2 VTK::FiltersSources VTK::PythonInterpreter)
 
 if(EJECTA_GL STREQUAL "osmesa")

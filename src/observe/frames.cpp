@@ -4,7 +4,7 @@
 
 #include "base/errors.hpp"
 #include "insitu/pipelines.hpp"
-#include "observe/colour_ranges.hpp"
+#include "observe/field_styles.hpp"
 #include "observe/slice.hpp"
 #include "schemes/kernels.hpp"
 
@@ -15,7 +15,7 @@ namespace {
 /// All that the pipelines are told of a run.
 template <int Dim>
 PipelineSettings pipeline_settings(const Simulation<Dim>& sim, const std::filesystem::path& folder, const View& view,
-                                   const std::map<std::string, ColourRange>& ranges) {
+                                   std::map<std::string, FieldStyle> styles) {
   const Scene& scene = sim.scene;
   PipelineSettings settings;
   settings.run_folder = std::filesystem::absolute(folder).string();
@@ -27,7 +27,8 @@ PipelineSettings pipeline_settings(const Simulation<Dim>& sim, const std::filesy
   settings.view_size = view.size;
   settings.time_end = scene.time_end;
   settings.particle_radius = 0.6 * scene.spacing;
-  settings.ranges = ranges;
+  settings.styles = std::move(styles);
+  for (const Field f : slice_fields(sim.particles)) settings.slice_fields.emplace_back(info(f).name);
   settings.nodes_per_h = scene.numerics.nodes_per_h;
   settings.radius_per_smoothing_length = 0.6 / settings.nodes_per_h;
   settings.fragment_target = scene.bodies[target_body(scene, sim.outset.bodies)].name;
@@ -49,15 +50,15 @@ Frames<Dim>::Frames(const Simulation<Dim>& sim, std::filesystem::path folder, bo
     : folder_(std::move(folder)),
       view_(choose_view(sim.scene)),
       slice_grid_(panel_grid(view_, sim.scene, static_cast<int>(slice_fields(sim.particles).size()))),
-      ranges_(colour_ranges(sim.scene, sim.materials, sim.outset)),
       schedule_(sim.scene.time_end, sim.scene.insitu.frames),
       governor_(sim.scene.insitu.max_share),
-      painter_(sim.scene, folder_ / "images") {
+      painter_(sim.scene, field_styles(sim.scene, sim.materials, sim.outset), folder_ / "images") {
   std::filesystem::create_directories(folder_ / "images");
   if (!catalyst) return;
   const Scene& scene = sim.scene;
-  bridge_ = std::make_unique<CatalystBridge>(pipeline_scripts(scene.insitu.pipelines, scene.fragments.enabled),
-                                             pipeline_settings(sim, folder_, view_, ranges_));
+  bridge_ = std::make_unique<CatalystBridge>(
+      pipeline_scripts(scene.insitu.pipelines, scene.fragments.enabled),
+      pipeline_settings(sim, folder_, view_, field_styles(scene, sim.materials, sim.outset)));
 }
 
 template <int Dim>
@@ -141,7 +142,7 @@ template <int Dim>
 void Frames<Dim>::draw_without_gl(const Simulation<Dim>& sim) {
   if (!index_) index_.emplace(folder_ / "images");
   const SampledImage slice = make_slice(sim.particles, sim.scene.numerics.kernel, slice_grid_, view_.center[1]);
-  painter_.paint_slice(slice, ranges_, sim.clock);
+  painter_.paint_slice(slice, sim.clock);
   images_ += static_cast<int>(index_->add_new_images(sim.clock.step, sim.clock.time).size());
 }
 

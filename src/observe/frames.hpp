@@ -51,7 +51,6 @@ class Frames final : public Observer<Dim> {
   std::filesystem::path folder_;
   View view_;
   PixelGrid slice_grid_;
-  std::map<std::string, ColourRange> ranges_;
   FrameSchedule schedule_;
   FrameGovernor governor_;
   FragmentTracker tracker_;
