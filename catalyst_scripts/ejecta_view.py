@@ -4,6 +4,7 @@ A pipeline makes one View, shows sources in it with the representations it likes
 catalyst_execute. Everything that could flicker (camera, colour ranges, units, image size) comes from the run's settings.
 Lengths are metres, all numbers SI; only what is written on an image is scaled to a readable unit.
 """
+import functools
 import json
 import math
 import os
@@ -11,7 +12,6 @@ import os
 import numpy
 from paraview.simple import (CreateRenderView, GetColorTransferFunction, GetScalarBar, Line, ProgrammableFilter,
                              PVTrivialProducer, Show, Text, _DisableFirstRenderCameraReset)
-from paraview.servermanager import vtkSMTransferFunctionPresets
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkIOImage import vtkPNGWriter
@@ -21,38 +21,26 @@ PAPER = [1.0, 1.0, 1.0]
 EMPTY = [0.955, 0.958, 0.963]
 FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"
 
-DIVERGING = "Cool to Warm"  # for quantities whose zero means something
-MAPS = {
-    "pressure": DIVERGING,
-    "damage": "Plasma (matplotlib)",
-    "distension": "Viridis (matplotlib)",
-    "velocity": "Viridis (matplotlib)",
-    "specific_energy": "Inferno (matplotlib)",
-}
-DEFAULT_MAP = "Viridis (matplotlib)"
-ALL_POSITIVE_MAP = "Inferno (matplotlib)"
 # Light enough at both ends for dark lines on it: x, red, green, blue.
 UNDER_INK = [0.0, 0.66, 0.73, 0.84, 0.3, 1.0, 0.86, 0.55, 0.65, 0.97, 0.52, 0.25, 1.0, 0.84, 0.14, 0.16]
-NATURAL_RANGES = {"damage": (0.0, 1.0), "damage_1": (0.0, 1.0), "damage_2": (0.0, 1.0), "damage_3": (0.0, 1.0)}
-
 NUMBER = "fragment_number"  # 0 is dust
 PALETTE = 120               # colours of fragments; numbers that differ by it look alike
 largest_fragment = 1        # its number, drawn in a colour of its own
 
-_settings = None
+_read = functools.lru_cache(1)(json.loads)
 _ranges = {}
 
 
 def settings():
-    """The run's settings and the SI units of its fields, as the simulation published them with the first frame."""
-    global _settings
-    if _settings is None:
-        _settings = json.loads(os.environ["EJECTA_FRAME"])
-    return _settings
+    """The run's settings and, from the first frame on, how its fields are shown, as the simulation publishes them."""
+    return _read(os.environ["EJECTA_FRAME"])
 
 
 def channel(name):
-    """The source of a channel: particles, slice, ellipsoids or fragments."""
+    """The source of a channel: particles, slice, ellipsoids or fragments.
+
+    To be called where the script begins: only channels that have a source by then are made for the first frame.
+    """
     return PVTrivialProducer(registrationName=name)
 
 
@@ -97,19 +85,22 @@ def set_font(target, prefix=""):
         setattr(target, prefix + "FontFile", FONT)
 
 
+def style(field):
+    """How the run shows a field: unit, label, range [SI] or None, colours (x, red, green, blue, ... over the range)."""
+    return settings()["fields"][field]
+
+
 def label(field):
-    return field.replace("_", " ")
+    return style(field)["label"]
 
 
 # ---- colour ---------------------------------------------------------------------------------------------------------
 
 def colour_range(field, source):
-    """The run's fixed range. Where the scene gives none: that of the first frame, kept from then on."""
+    """The run's fixed range. Where nothing is known of it: that of the first frame, kept from then on."""
     if field not in _ranges:
-        given = settings()["ranges"].get(field)
+        given = style(field)["range"]
         if given is None:
-            given = NATURAL_RANGES.get(field)
-        if given is None or not given[1] > given[0]:  # a scene at rest leaves the run nothing to tell a range from
             array = data_of(source).GetPointData().GetArray(field)
             low, high = array.GetFiniteRange(-1 if array.GetNumberOfComponents() > 1 else 0)
             given = (low, high) if high > low else (low, low + max(abs(low), 1.0))
@@ -117,43 +108,21 @@ def colour_range(field, source):
     return _ranges[field]
 
 
-def map_name(field, low):
-    """The preset for a field: a diverging one only where the range reaches below its zero."""
-    name = MAPS.get(field, DEFAULT_MAP)
-    return ALL_POSITIVE_MAP if name == DIVERGING and low >= 0 else name
-
-
-def _map_points(name, low, high):
-    """A preset spread over [low, high] as x, r, g, b, x, r, g, b, ... The white of a diverging map stays at zero."""
-    if name is UNDER_INK:
-        flat = UNDER_INK
-    else:
-        presets = vtkSMTransferFunctionPresets.GetInstance()
-        index = next(i for i in range(presets.GetNumberOfPresets()) if presets.GetPresetName(i) == name)
-        flat = json.loads(presets.GetPresetAsString(index))["RGBPoints"]
-    first, last = flat[0], flat[-4]
-    points = []
-    for i in range(0, len(flat), 4):
-        x = (flat[i] - first) / (last - first)
-        if name == DIVERGING:
-            x = low * (1 - 2 * x) if x < 0.5 else max(high, -1e-9 * low) * (2 * x - 1)
-        else:
-            x = low + x * (high - low)
-        points += [x, *flat[i + 1:i + 4]]
-    return points
-
-
 def colour_map(field, source, name=None, scale=1.0, under_ink=False):
     """The lookup table of a field over its fixed range, times `scale`. Where there is no matter (NaN) it is pale.
 
     `under_ink`: a map on which dark lines stand out, instead of the field's own.
     """
-    low, high = (scale * value for value in colour_range(field, source))
+    low, high = colour_range(field, source)
+    colours = UNDER_INK if under_ink else style(field)["colours"]
+    if under_ink or style(field)["range"] is None:  # colours over [0, 1]
+        places = [low + x * (high - low) for x in colours[::4]]
+    else:
+        places = colours[::4]
     table = GetColorTransferFunction(name or (field + " under ink" if under_ink else field))
     table.AutomaticRescaleRangeMode = "Never"
-    preset = UNDER_INK if under_ink else map_name(field, low)
-    table.ColorSpace = "Diverging" if preset == DIVERGING else "RGB"
-    table.RGBPoints = _map_points(preset, low, high)
+    table.ColorSpace = "RGB"
+    table.RGBPoints = [value for i, x in enumerate(places) for value in (scale * x, *colours[4 * i + 1:4 * i + 4])]
     table.NanColor = EMPTY
     table.ScalarRangeInitialized = 1
     table.VectorMode = "Magnitude"
@@ -319,7 +288,7 @@ class View:
 
     def colour_bar(self, field, source, x, y, length, upright=False, under_ink=False):
         """A colour bar titled `field [unit]` that counts in a readable unit; (x, y) is its lower left corner."""
-        unit, scale = readable_unit(settings()["units"].get(field, "1"), max(map(abs, colour_range(field, source))))
+        unit, scale = readable_unit(style(field)["unit"], max(map(abs, colour_range(field, source))))
         table = colour_map(field, source, f"{self.name} bar {field}", scale, under_ink)
         bar = GetScalarBar(table, self.view)
         bar.Title = label(field) + (f" [{unit}]" if unit else "")

@@ -9,16 +9,6 @@ options = catalyst.Options()
 source = ejecta.channel("slice")
 view = None
 
-WANTED = ["pressure", "distension", "damage"]
-OTHERS = ["density", "velocity", "specific_energy", "sound_speed"]
-GAS = ["density", "pressure", "velocity", "specific_energy"]
-
-
-def choose_fields():
-    there = ejecta.fields(source)
-    solid = "distension" in there or "damage" in there
-    return [field for field in (WANTED + OTHERS if solid else GAS) if field in there][:3]
-
 
 def make_view():
     bounds = ejecta.data_of(source).GetBounds()
@@ -27,7 +17,7 @@ def make_view():
     # The slice is flat along one axis; the other two become the picture's right and up.
     flat = size.index(min(size))
     right, up = {0: (1, 2), 1: (0, 2), 2: (0, 1)}[flat]
-    names = choose_fields()
+    names = ejecta.settings()["slice_fields"]
     count = len(names)
     view = ejecta.View("slice", "slice through the middle")
     width, height = view.size

@@ -43,13 +43,32 @@ std::uint32_t packed(Colour c) {
   return byte(c.red) << 16 | byte(c.green) << 8 | byte(c.blue);
 }
 
+/// The colours of a panel's values.
+class PanelColours {
+ public:
+  explicit PanelColours(const Panel& panel)
+      : panel_(panel), min_(panel.logarithmic ? 0 : panel.min), max_(panel.logarithmic ? 1 : panel.max) {}
+
+  std::uint32_t of(double value) const {
+    const double place = panel_.logarithmic ? fraction(panel_, value) : value;
+    return packed(std::isnan(place) ? empty : scale_.at(place));
+  }
+  /// Colour at a fraction of the colour bar.
+  std::uint32_t on_bar(double part) const { return packed(scale_.at(min_ + part * (max_ - min_))); }
+
+ private:
+  const Panel& panel_;
+  double min_, max_;
+  ColourScale scale_ = colour_scale(panel_.map, min_, max_);
+};
+
 std::vector<std::uint32_t> coloured(const Panel& panel, const PixelGrid& grid) {
+  const PanelColours colours(panel);
   const std::size_t width = static_cast<std::size_t>(grid.width), height = static_cast<std::size_t>(grid.height);
   std::vector<std::uint32_t> rgb(width * height);
   parallel_for(0, rgb.size(), [&](std::size_t p) {
     const std::size_t row = height - 1 - p / width;  // pictures run downwards
-    const double place = fraction(panel, panel.values[row * width + p % width]);
-    rgb[p] = packed(std::isnan(place) ? empty : map_colour(panel.map, place));
+    rgb[p] = colours.of(panel.values[row * width + p % width]);
   });
   return rgb;
 }
@@ -68,10 +87,11 @@ std::vector<double> bar_ticks(const Panel& panel, double si) {
 }
 
 void draw_colour_bar(Canvas& canvas, const Panel& panel, Box box, double font) {
-  constexpr int colours = 256;
-  std::vector<std::uint32_t> rgb(colours);
-  for (int k = 0; k < colours; ++k) rgb[static_cast<std::size_t>(k)] = packed(map_colour(panel.map, k / 255.0));
-  canvas.picture(box, rgb, colours, 1);
+  constexpr int steps = 256;
+  const PanelColours colours(panel);
+  std::vector<std::uint32_t> rgb(steps);
+  for (int k = 0; k < steps; ++k) rgb[static_cast<std::size_t>(k)] = colours.on_bar(k / 255.0);
+  canvas.picture(box, rgb, steps, 1);
   canvas.outline(box, faint, 1);
   const DisplayUnit unit = display_unit(std::max(std::abs(panel.min), std::abs(panel.max)), panel.unit);
   for (const double value : bar_ticks(panel, unit.si)) {

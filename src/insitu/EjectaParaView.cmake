@@ -37,8 +37,8 @@ add_library(ejecta_insitu STATIC
   ${insitu}/catalyst_bridge.cpp ${insitu}/gl_probe.cpp ${insitu}/image_index.cpp ${insitu}/insitu_log.cpp
   ${insitu}/pipelines.cpp ${insitu}/vtk_channels.cpp)
 target_compile_definitions(ejecta_insitu PRIVATE OMPI_SKIP_MPICXX)
-target_link_libraries(ejecta_insitu PUBLIC ejecta_particles ejecta_model
-  PRIVATE ParaView::Catalyst ParaView::PythonCatalyst VTK::RenderingOpenGL2 VTK::FiltersSources VTK::PythonInterpreter)
+target_link_libraries(ejecta_insitu PUBLIC ejecta_render
+  PRIVATE ParaView::Catalyst ParaView::PythonCatalyst ParaView::RemotingServerManager VTK::RenderingOpenGL2 VTK::FiltersSources VTK::PythonInterpreter)
 
 if(EJECTA_GL STREQUAL "osmesa")
   find_library(OSMESA_LIBRARY OSMesa REQUIRED)

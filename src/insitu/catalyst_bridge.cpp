@@ -3,12 +3,16 @@
 #include <vtkCPDataDescription.h>
 #include <vtkCPInputDataDescription.h>
 #include <vtkCPProcessor.h>
-#include <vtkCPPythonPipeline.h>
+#include <vtkCPPythonScriptV2Helper.h>
 #include <vtkDataSet.h>
 #include <vtkNew.h>
+#include <vtkPolyData.h>
 #include <vtkPythonInterpreter.h>
+#include <vtkSMProxyManager.h>
+#include <vtkSMSessionProxyManager.h>
 #include <vtkSmartPointer.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <csignal>
@@ -45,7 +49,7 @@ class KeepSignalHandlers {
 
 struct Script {
   std::string path;
-  vtkSmartPointer<vtkCPPythonPipeline> pipeline;
+  vtkSmartPointer<vtkCPPythonScriptV2Helper> module;
   bool has_failed = false;
 };
 
@@ -62,6 +66,7 @@ struct CatalystBridge::State {
   VtkChannels wrapper;
   vtkNew<vtkCPProcessor> processor;
   vtkNew<vtkCPDataDescription> description;
+  vtkNew<vtkPolyData> nothing;  ///< stands for a channel that is not there
   std::vector<Script> scripts;
   std::int64_t last_step = std::numeric_limits<std::int64_t>::min();
   int failures = 0;
@@ -70,6 +75,7 @@ struct CatalystBridge::State {
       : settings(std::move(s)), redirection(settings.run_folder + "/insitu.log"), index(images_folder(settings)) {}
 
   void publish(std::span<const Channel> channels, std::int64_t step, double time);
+  bool import(Script& script);
   bool run(Script& script);
 };
 
@@ -80,19 +86,27 @@ void CatalystBridge::State::publish(std::span<const Channel> channels, std::int6
   vtkPythonInterpreter::RunSimpleString(assignment.c_str());
   description->SetTimeData(time, step);
   description->ForceOutputOn();
-  for (const Channel& channel : channels) {
-    description->AddInput(channel.name.c_str());
-    vtkCPInputDataDescription* input = description->GetInputDescriptionByName(channel.name.c_str());
+  for (const char* name : channel_names) {
+    description->AddInput(name);
+    vtkCPInputDataDescription* input = description->GetInputDescriptionByName(name);
     input->AllFieldsOn();
     input->GenerateMeshOn();
-    input->SetGrid(wrapper.wrap(channel));
+    const auto channel = std::ranges::find(channels, name, &Channel::name);
+    input->SetGrid(channel == channels.end() ? nothing.Get() : wrapper.wrap(*channel).Get());
   }
+}
+
+/// Runs the script's own lines, in which it registers its sources.
+bool CatalystBridge::State::import(Script& script) {
+  return script.module->IsImported() ||
+         (script.module->Import(description) && script.module->CatalystInitialize(description));
 }
 
 bool CatalystBridge::State::run(Script& script) {
   redirection.log().clear();
-  if (!script.pipeline->RequestDataDescription(description)) return true;  // its own trigger says: not now
-  return script.pipeline->CoProcess(description) != 0;
+  if (!import(script)) return false;
+  if (!script.module->RequestDataDescription(description)) return true;  // its own trigger says: not now
+  return script.module->CatalystExecute(description);
 }
 
 CatalystBridge::CatalystBridge(const std::vector<std::string>& scripts, PipelineSettings settings) {
@@ -106,19 +120,27 @@ CatalystBridge::CatalystBridge(const std::vector<std::string>& scripts, Pipeline
   vtkPythonInterpreter::Initialize(0);
   vtkPythonInterpreter::PrependPythonPath((data_folder() / "catalyst_scripts").c_str());
   // Without output to the terminal ParaView's Python logger would write every step it takes.
-  vtkPythonInterpreter::RunSimpleString("import logging, paraview; paraview.logger.setLevel(logging.WARNING)\n");
+  vtkPythonInterpreter::RunSimpleString(
+      "import logging, sys, paraview; paraview.logger.setLevel(logging.WARNING); sys.dont_write_bytecode = True\n");
   state_->processor->Initialize();
   state_->redirection.reinstate();  // ParaView has set its own
   for (const std::string& path : scripts) {
-    auto pipeline = vtkCPPythonPipeline::CreateAndInitializePipeline(path.c_str(), 2);
-    if (!pipeline) throw InputError(state_->redirection.log().reason(path));
-    state_->scripts.push_back({path, pipeline});
+    auto module = vtkSmartPointer<vtkCPPythonScriptV2Helper>::New();
+    if (!module->PrepareFromScript(path)) throw InputError(state_->redirection.log().reason(path));
+    state_->scripts.push_back({path, module});
   }
+  constexpr double before_all_frames = -1;  // s
+  state_->publish({}, -1, before_all_frames);
+  for (Script& script : state_->scripts) state_->import(script);  // one that fails is reported with the first frame
+}
+
+bool CatalystBridge::reads(const char* channel) const {
+  return vtkSMProxyManager::GetProxyManager()->GetActiveSessionProxyManager()->GetProxy("sources", channel) != nullptr;
 }
 
 CatalystBridge::~CatalystBridge() {
   const KeepSignalHandlers keep;
-  for (Script& script : state_->scripts) script.pipeline->Finalize();
+  for (Script& script : state_->scripts) script.module->CatalystFinalize();
   state_->scripts.clear();
   state_->processor->Finalize();
 }

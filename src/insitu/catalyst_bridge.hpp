@@ -26,12 +26,17 @@ struct FrameReport {
 /// or later, stay as they are.
 class CatalystBridge {
  public:
-  /// Starts ParaView with off-screen windows. The scripts are absolute paths that have passed check_pipeline_scripts.
-  /// VTK's and the scripts' messages go to <run_folder>/insitu.log. Throws InputError if a script cannot be loaded.
+  /// Starts ParaView with off-screen windows and runs what the scripts do before the first frame. They are absolute
+  /// paths that have passed check_pipeline_scripts. VTK's and the scripts' messages go to <run_folder>/insitu.log.
+  /// Throws InputError if a script cannot be loaded.
   CatalystBridge(const std::vector<std::string>& scripts, PipelineSettings settings);
   ~CatalystBridge();
   CatalystBridge(const CatalystBridge&) = delete;
   CatalystBridge& operator=(const CatalystBridge&) = delete;
+
+  /// Has a script registered a source of this channel (one of channel_names)? Channels that nobody reads need not be
+  /// made.
+  bool reads(const char* channel) const;
 
   /// Shows the channels to every script, without copying them, and adds new images to images/data.csv. A step that has
   /// been shown already is not shown again. A script that fails is reported once, counted, and tried again next time.

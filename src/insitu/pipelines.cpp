@@ -21,6 +21,31 @@ std::string number(double value) {
   return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
 }
 
+template <class Values, class Text>
+std::string json_list(const Values& values, Text text) {
+  std::string list = "[";
+  for (const auto& value : values) list += (list.size() > 1 ? "," : "") + text(value);
+  return list + ']';
+}
+
+std::map<std::string, std::string> units_of(std::span<const Channel> channels) {
+  std::map<std::string, std::string> units;
+  for (const Channel& channel : channels)
+    for (const FieldView& field : channel.fields) units[field.name] = field.unit;
+  return units;
+}
+
+std::string field_json(const std::string& unit, const FieldStyle& style) {
+  const ColourRange range = style.range.value_or(ColourRange{0, 1});
+  const ColourScale scale = colour_scale(style.map, range.min, range.max);
+  std::vector<double> points;
+  for (std::size_t k = 0; k < scale.values.size(); ++k)
+    points.insert(points.end(), {scale.values[k], scale.colours[k].red, scale.colours[k].green, scale.colours[k].blue});
+  return "{\"unit\":" + json_string(unit) + ",\"label\":" + json_string(style.label) +
+         ",\"range\":" + (style.range ? json_list(std::array{range.min, range.max}, number) : "null") +
+         ",\"colours\":" + json_list(points, number) + '}';
+}
+
 /// The message of the compiler for `path`, as file:line: text; empty if it compiles.
 std::string syntax_problem(const std::string& path) {
   LogRedirection redirection("");
@@ -103,19 +128,13 @@ std::string frame_json(const PipelineSettings& s, std::span<const Channel> chann
       << ",\"particle_radius\":" << number(s.particle_radius)
       << ",\"radius_per_smoothing_length\":" << number(s.radius_per_smoothing_length)
       << ",\"nodes_per_h\":" << number(s.nodes_per_h) << ",\"kernel_support\":" << number(s.kernel_support)
-      << ",\"fragment_target\":" << json_string(s.fragment_target) << ",\"ranges\":{";
+      << ",\"fragment_target\":" << json_string(s.fragment_target)
+      << ",\"slice_fields\":" << json_list(s.slice_fields, json_string) << ",\"fields\":{";
   const char* separator = "";
-  for (const auto& [field, range] : s.ranges) {
-    out << separator << json_string(field) << ":[" << number(range.min) << ',' << number(range.max) << ']';
-    separator = ",";
-  }
-  out << "},\"units\":{";
-  std::map<std::string, std::string> units;
-  for (const Channel& channel : channels)
-    for (const FieldView& field : channel.fields) units[field.name] = field.unit;
-  separator = "";
-  for (const auto& [field, unit] : units) {
-    out << separator << json_string(field) << ':' << json_string(unit);
+  for (const auto& [name, unit] : units_of(channels)) {
+    const auto style = s.styles.find(name);
+    out << separator << json_string(name) << ':'
+        << field_json(unit, style == s.styles.end() ? plain_style(name) : style->second);
     separator = ",";
   }
   out << "}}";

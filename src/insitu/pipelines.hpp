@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "model/channel.hpp"
+#include "render/field_style.hpp"
 #include "scene/scene.hpp"
 
 namespace ejecta {
@@ -25,8 +26,12 @@ struct PipelineSettings {
   double nodes_per_h = 1.3;                   ///< node spacings per smoothing length
   double kernel_support = 2;                  ///< of the kernel, in smoothing lengths
   std::string fragment_target = "target";     ///< body that fragments are counted of
-  std::map<std::string, ColourRange> ranges;  ///< field -> fixed colour range [SI]
+  std::vector<std::string> slice_fields;      ///< panels of a slice, in this order
+  std::map<std::string, FieldStyle> styles;   ///< field -> how it is shown; others have a plain_style
 };
+
+/// Names of the channels, by which scripts register the sources that read them.
+inline constexpr std::array channel_names{"particles", "slice", "ellipsoids", "fragments"};
 
 /// Absolute paths of the scripts drawn by default: slice, cutaway and, where fragments are followed, fragments.
 std::vector<std::string> default_pipelines(bool fragments);
@@ -39,7 +44,9 @@ std::vector<std::string> pipeline_scripts(const std::vector<std::string>& names,
 /// has a syntax error.
 void check_pipeline_scripts(const std::vector<std::string>& paths);
 
-/// The settings, the step and the units of all fields as one JSON text, which the scripts read.
+/// The settings, and unit and style of all fields of the channels, as one JSON text, which the scripts read. A style is
+/// a label, a range [SI] or null, and the colour map as x, red, green, blue, ... over the range, or over [0, 1] if
+/// there is none.
 std::string frame_json(const PipelineSettings& settings, std::span<const Channel> channels);
 
 /// `text` between quotes, escaped for JSON (and for Python, whose strings have the same escapes).

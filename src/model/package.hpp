@@ -1,6 +1,7 @@
 #pragma once
 /// A solver as the time loop sees it. What it solves, and with which fields, is its own affair.
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <string>
@@ -30,6 +31,9 @@ struct Remark {
   bool worrying = false;
 };
 
+/// Whether somebody reads the channel of this name.
+using Asked = std::function<bool(std::string_view)>;
+
 class Package {
  public:
   virtual ~Package() = default;
@@ -53,8 +57,8 @@ class Package {
   /// What it does, for `ejecta check`: lines of text.
   virtual std::string outline() const { return ""; }
   virtual std::vector<Remark> remarks() const { return {}; }
-  /// Live fields for the in-situ pipelines; the views are good until the next step.
-  virtual std::vector<Channel> channels() const { return {}; }
+  /// Live fields for the in-situ pipelines, of the channels that are asked for; the views are good until the next step.
+  virtual std::vector<Channel> channels(const Asked&) const { return {}; }
   /// Of a culprit, for messages.
   virtual std::string describe(std::size_t culprit) const = 0;
   /// Where a culprit belongs, in a word or two, for the line of progress; may be empty.

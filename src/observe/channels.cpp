@@ -1,11 +1,12 @@
 #include "observe/channels.hpp"
 
 #include "observe/columns.hpp"
+#include "observe/slice.hpp"
 
 namespace ejecta {
 
 template <int Dim>
-Channel FrameChannels<Dim>::particle_channel(const Particles<Dim>& p, const std::optional<FragmentTable>& fragments) {
+Channel FrameChannels<Dim>::particles(const Particles<Dim>& p, const std::optional<FragmentTable>& fragments) {
   Channel particles;
   particles.name = "particles";
   particles.count = p.size();
@@ -25,7 +26,7 @@ Channel FrameChannels<Dim>::particle_channel(const Particles<Dim>& p, const std:
 }
 
 template <int Dim>
-Channel FrameChannels<Dim>::fragment_channel(const FragmentTable& table, std::size_t target) {
+Channel FrameChannels<Dim>::fragments(const FragmentTable& table, std::size_t target) {
   enum { x, y, z, mass, vx, vy, vz, size, mean_damage, mean_distension, target_mass };
   for (auto& column : fragment_columns_) column.clear();
   fragment_numbers_.clear();
@@ -57,18 +58,21 @@ Channel FrameChannels<Dim>::fragment_channel(const FragmentTable& table, std::si
 }
 
 template <int Dim>
-std::vector<Channel> FrameChannels<Dim>::update(const Sph<Dim>& sim, const SampledImage& slice, double plane_y,
-                                                const std::optional<FragmentTable>& fragments) {
-  std::vector<Channel> all{particle_channel(sim.particles, fragments), image_channel(slice, "slice")};
-  if (Channel& image = all.back(); Dim == 3) {  // the picture plane is x-z in space
+Channel FrameChannels<Dim>::slice(const Particles<Dim>& p, Kernel kernel, const PixelGrid& grid, double plane_y) {
+  slice_ = make_slice(p, kernel, grid, plane_y);
+  Channel image = image_channel(slice_, "slice");
+  if (Dim == 3) {  // the picture plane is x-z in space
     image.extent = {image.extent[0], 1, image.extent[1]};
     image.origin = {image.origin[0], plane_y, image.origin[1]};
     image.spacing = {image.spacing[0], 1, image.spacing[1]};
   }
-  ellipsoids_ = find_ellipsoids(sim.particles, plane_y, sim.scene.numerics.nodes_per_h);
-  all.push_back(ellipsoids_.channel("ellipsoids"));
-  if (fragments) all.push_back(fragment_channel(*fragments, target_body(sim.scene, sim.outset.bodies)));
-  return all;
+  return image;
+}
+
+template <int Dim>
+Channel FrameChannels<Dim>::ellipsoids(const Particles<Dim>& p, double plane_y, double nodes_per_h) {
+  ellipsoids_ = find_ellipsoids(p, plane_y, nodes_per_h);
+  return ellipsoids_.channel("ellipsoids");
 }
 
 template class FrameChannels<2>;

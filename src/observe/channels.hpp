@@ -5,29 +5,32 @@
 #include <optional>
 #include <vector>
 
+#include "model/channel.hpp"
 #include "render/ellipsoids.hpp"
 #include "render/sampling.hpp"
+#include "scene/scene.hpp"
 #include "analysis/fragments.hpp"
-#include "sph/sph.hpp"
 
 namespace ejecta {
 
-/// The channels of one frame. They point into the simulation, the slice, the fragments and this object, which keeps the
-/// derived columns.
+/// Makes the channels of a frame, each on its own. They point into what they are made of and into this object, which
+/// keeps the derived columns until the same channel is made again.
 template <int Dim>
 class FrameChannels {
  public:
-  /// particles, slice, ellipsoids and, where there is a table of them, fragments. `plane_y` [m]: of slice and
-  /// ellipsoids.
-  std::vector<Channel> update(const Sph<Dim>& sim, const SampledImage& slice, double plane_y,
-                              const std::optional<FragmentTable>& fragments);
+  /// All columns but rates, what follows from the tensors, and the fragment numbers where there is a table of them.
+  Channel particles(const Particles<Dim>& p, const std::optional<FragmentTable>& fragments);
+  /// The slice fields in the plane y = plane_y [m].
+  Channel slice(const Particles<Dim>& p, Kernel kernel, const PixelGrid& grid, double plane_y);
+  /// The smoothing ellipsoids of the layer about the plane y = plane_y [m].
+  Channel ellipsoids(const Particles<Dim>& p, double plane_y, double nodes_per_h);
+  /// A point a fragment; `target` is the body that target_mass is of.
+  Channel fragments(const FragmentTable& table, std::size_t target);
 
  private:
-  Channel particle_channel(const Particles<Dim>& p, const std::optional<FragmentTable>& fragments);
-  Channel fragment_channel(const FragmentTable& table, std::size_t target);
-
   std::vector<double> zeros_;
   std::vector<OwnedField> tensor_fields_;
+  SampledImage slice_;
   Ellipsoids ellipsoids_;
   std::array<std::vector<double>, 11> fragment_columns_;
   std::vector<std::int32_t> fragment_numbers_;

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "output/checkpoint.hpp"
-#include "simulation/simulation.hpp"
+#include "sph/sph.hpp"
 
 namespace ejecta {
 

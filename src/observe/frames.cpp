@@ -4,7 +4,7 @@
 
 #include "base/errors.hpp"
 #include "insitu/pipelines.hpp"
-#include "observe/colour_ranges.hpp"
+#include "observe/field_styles.hpp"
 #include "observe/slice.hpp"
 #include "schemes/kernels.hpp"
 
@@ -15,7 +15,7 @@ namespace {
 /// All that the pipelines are told of a run.
 template <int Dim>
 PipelineSettings pipeline_settings(const Sph<Dim>& sph, const std::filesystem::path& folder, const View& view,
-                                   const std::map<std::string, ColourRange>& ranges) {
+                                   std::map<std::string, FieldStyle> styles) {
   const Scene& scene = sph.scene;
   PipelineSettings settings;
   settings.run_folder = std::filesystem::absolute(folder).string();
@@ -27,7 +27,8 @@ PipelineSettings pipeline_settings(const Sph<Dim>& sph, const std::filesystem::p
   settings.view_size = view.size;
   settings.time_end = scene.time_end;
   settings.particle_radius = 0.6 * scene.spacing;
-  settings.ranges = ranges;
+  settings.styles = std::move(styles);
+  for (const Field f : slice_fields(sph.particles)) settings.slice_fields.emplace_back(info(f).name);
   settings.nodes_per_h = scene.numerics.nodes_per_h;
   settings.radius_per_smoothing_length = 0.6 / settings.nodes_per_h;
   settings.fragment_target = scene.bodies[target_body(scene, sph.outset.bodies)].name;
@@ -49,15 +50,16 @@ Frames<Dim>::Frames(const Sph<Dim>& sph, std::filesystem::path folder, bool cata
     : sph_(sph),
       folder_(std::move(folder)),
       view_(choose_view(sph.scene)),
-      ranges_(colour_ranges(sph.scene, sph.materials, sph.outset)),
+      slice_grid_(panel_grid(view_, sph.scene, static_cast<int>(slice_fields(sph.particles).size()))),
       schedule_(sph.scene.time_end, sph.scene.insitu.frames),
       governor_(sph.scene.insitu.max_share),
-      painter_(sph.scene, folder_ / "images") {
+      painter_(sph.scene, field_styles(sph.scene, sph.materials, sph.outset), folder_ / "images") {
   std::filesystem::create_directories(folder_ / "images");
   if (!catalyst) return;
   const Scene& scene = sph.scene;
-  bridge_ = std::make_unique<CatalystBridge>(pipeline_scripts(scene.insitu.pipelines, scene.fragments.enabled),
-                                             pipeline_settings(sph, folder_, view_, ranges_));
+  bridge_ = std::make_unique<CatalystBridge>(
+      pipeline_scripts(scene.insitu.pipelines, scene.fragments.enabled),
+      pipeline_settings(sph, folder_, view_, field_styles(scene, sph.materials, sph.outset)));
 }
 
 template <int Dim>
@@ -70,10 +72,14 @@ template <int Dim>
 void Frames<Dim>::observe(Simulation& sim, bool last) {
   if (!schedule_.take(sim.clock.step, sim.clock.time, last)) return;
   ++drawn_;
-  if (sim.scene.fragments.enabled) sim.timers.time("in situ: fragments", [&] { find_fragments(); });
+  if (sim.scene.fragments.enabled) sim.timers.time("in situ: fragment search", [&] { find_fragments(); });
   if (sim.scene.insitu.enabled) {
-    sim.timers.time("in situ: slice", [&] { sample(); });
-    sim.timers.time("in situ: images", [&] { bridge_ ? draw_with_catalyst(sim) : draw_without_gl(); });
+    if (sim.scene.insitu.column_density) sim.timers.time("in situ: column density", [&] { draw_column_density(); });
+    if (bridge_) {
+      draw_with_catalyst(sim);
+    } else {
+      sim.timers.time("in situ: images", [&] { draw_without_gl(); });
+    }
     if (const auto share = governor_.excess(insitu_seconds(sim.timers), sim.wall_seconds)) {
       schedule_.thin_out();
       warn(
@@ -97,22 +103,37 @@ void Frames<Dim>::find_fragments() {
 }
 
 template <int Dim>
-void Frames<Dim>::sample() {
+void Frames<Dim>::draw_column_density() {
+  const PixelGrid grid = panel_grid(view_, sph_.scene, 1);
+  painter_.paint_column_density(make_column_density(sph_.particles, sph_.scene.numerics.kernel, grid), sph_.clock);
+}
+
+/// Those that some script reads.
+template <int Dim>
+std::vector<Channel> Frames<Dim>::make_channels(Simulation& sim) {
   const Particles<Dim>& p = sph_.particles;
-  const Scene& scene = sph_.scene;
-  const Kernel kernel = scene.numerics.kernel;
-  const int panels = static_cast<int>(slice_fields(p).size());
-  slice_ = make_slice(p, kernel, panel_grid(view_, scene, panels), view_.center[1]);
-  if (scene.insitu.column_density)
-    painter_.paint_column_density(make_column_density(p, kernel, panel_grid(view_, scene, 1)), sph_.clock);
+  const Numerics& numerics = sph_.scene.numerics;
+  const double plane_y = view_.center[1];
+  std::vector<Channel> made;
+  const auto make = [&](const char* name, auto&& channel) {
+    if (bridge_->reads(name)) sim.timers.time(std::string("in situ: ") + name, [&] { made.push_back(channel()); });
+  };
+  make("particles", [&] { return channels_.particles(p, fragments_); });
+  make("slice", [&] { return channels_.slice(p, numerics.kernel, slice_grid_, plane_y); });
+  make("ellipsoids", [&] { return channels_.ellipsoids(p, plane_y, numerics.nodes_per_h); });
+  if (fragments_)
+    make("fragments", [&] { return channels_.fragments(*fragments_, target_body(sph_.scene, sph_.outset.bodies)); });
+  for (const auto& package : sim.packages)
+    for (Channel& channel : package->channels([&](std::string_view name) { return bridge_->reads(std::string(name)); }))
+      made.push_back(std::move(channel));
+  return made;
 }
 
 template <int Dim>
-void Frames<Dim>::draw_with_catalyst(const Simulation& sim) {
-  std::vector<Channel> all = channels_.update(sph_, slice_, view_.center[1], fragments_);
-  for (const auto& package : sim.packages)
-    for (Channel& channel : package->channels()) all.push_back(std::move(channel));
-  const FrameReport report = bridge_->execute(sim.clock.step, sim.clock.time, all);
+void Frames<Dim>::draw_with_catalyst(Simulation& sim) {
+  const std::vector<Channel> channels = make_channels(sim);
+  FrameReport report;
+  sim.timers.time("in situ: images", [&] { report = bridge_->execute(sim.clock.step, sim.clock.time, channels); });
   images_ += static_cast<int>(report.images.size());
   for (const std::string& warning : report.warnings) {
     if (sim.scene.insitu.on_error == OnError::abort) throw SimulationError("in situ: " + warning);
@@ -123,7 +144,8 @@ void Frames<Dim>::draw_with_catalyst(const Simulation& sim) {
 template <int Dim>
 void Frames<Dim>::draw_without_gl() {
   if (!index_) index_.emplace(folder_ / "images");
-  painter_.paint_slice(slice_, ranges_, sph_.clock);
+  const SampledImage slice = make_slice(sph_.particles, sph_.scene.numerics.kernel, slice_grid_, view_.center[1]);
+  painter_.paint_slice(slice, sph_.clock);
   images_ += static_cast<int>(index_->add_new_images(sph_.clock.step, sph_.clock.time).size());
 }
 

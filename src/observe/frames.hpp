@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/fragments.hpp"
 #include "insitu/catalyst_bridge.hpp"
 #include "insitu/image_index.hpp"
 #include "observe/channels.hpp"
@@ -14,7 +15,6 @@
 #include "observe/painter.hpp"
 #include "observe/schedule.hpp"
 #include "observe/view.hpp"
-#include "analysis/fragments.hpp"
 #include "simulation/simulation.hpp"
 #include "sph/sph.hpp"
 
@@ -54,18 +54,18 @@ class Frames final : public FrameResults {
 
  private:
   void find_fragments();
-  void sample();
-  void draw_with_catalyst(const Simulation& sim);
+  void draw_column_density();
+  std::vector<Channel> make_channels(Simulation& sim);
+  void draw_with_catalyst(Simulation& sim);
   void draw_without_gl();
 
   const Sph<Dim>& sph_;
   std::filesystem::path folder_;
   View view_;
-  std::map<std::string, ColourRange> ranges_;
+  PixelGrid slice_grid_;
   FrameSchedule schedule_;
   FrameGovernor governor_;
   FragmentTracker tracker_;
-  SampledImage slice_;
   Painter painter_;
   FrameChannels<Dim> channels_;
   std::unique_ptr<CatalystBridge> bridge_;

@@ -4,16 +4,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace ejecta {
 
 namespace {
 
-ColourMap map_of(std::string_view field) {
-  if (field == "pressure") return ColourMap::cool_warm;
-  if (field == "damage") return ColourMap::inferno;
-  return ColourMap::viridis;
+/// What an image holds, where nothing else is known of its range.
+ColourRange range_of(std::span<const double> values) {
+  ColourRange range{std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest()};
+  for (const double value : values)
+    if (std::isfinite(value)) range = {std::min(range.min, value), std::max(range.max, value)};
+  if (range.min < range.max) return range;
+  return range.min == range.max ? ColourRange{range.min, range.min + std::max(std::abs(range.min), 1.0)}
+                                : ColourRange{0, 1};
 }
 
 std::vector<double> magnitude(const std::vector<std::vector<double>>& components) {
@@ -29,8 +34,9 @@ std::vector<double> magnitude(const std::vector<std::vector<double>>& components
 
 }  // namespace
 
-Painter::Painter(const Scene& scene, std::filesystem::path images)
-    : images_(std::move(images)),
+Painter::Painter(const Scene& scene, std::map<std::string, FieldStyle> styles, std::filesystem::path images)
+    : styles_(std::move(styles)),
+      images_(std::move(images)),
       width_(scene.insitu.image_width),
       height_(scene.insitu.image_height),
       text_{heading(scene), 0, scene.time_end, {"x", scene.dimension == 3 ? "z" : "y"}} {}
@@ -41,16 +47,16 @@ void Painter::paint(const char* name, const PixelGrid& grid, std::span<const Pan
   write_panels(images_ / fmt::format("{}_{:06d}.png", name, clock.step), width_, height_, grid, panels, text);
 }
 
-void Painter::paint_slice(const SampledImage& slice, const std::map<std::string, ColourRange>& ranges,
-                          const Clock& clock) const {
+void Painter::paint_slice(const SampledImage& slice, const Clock& clock) {
   std::vector<Panel> panels;
   std::vector<std::vector<double>> values;
   values.reserve(slice.fields.size());  // the panels point into it
   for (const SampledImage::Field& field : slice.fields) {
     if (field.name == "filling") continue;
-    const ColourRange range = ranges.at(field.name);
-    panels.push_back({field.name, field.unit, values.emplace_back(magnitude(field.components)), range.min, range.max,
-                      map_of(field.name)});
+    const std::vector<double>& shown = values.emplace_back(magnitude(field.components));
+    FieldStyle& style = styles_.try_emplace(field.name, plain_style(field.name)).first->second;
+    if (!style.range) style.range = range_of(shown);  // that of the first frame, kept from then on
+    panels.push_back({style.label, field.unit, shown, style.range->min, style.range->max, style.map});
   }
   paint("slice", slice.grid, panels, clock);
 }

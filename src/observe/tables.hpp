@@ -6,7 +6,7 @@
 #include "observe/frames.hpp"
 #include "output/fragment_files.hpp"
 #include "output/history.hpp"
-#include "simulation/simulation.hpp"
+#include "sph/sph.hpp"
 
 namespace ejecta {
 

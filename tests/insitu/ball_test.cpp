@@ -3,6 +3,7 @@
 #include <signal.h>
 
 #include <fstream>
+#include <set>
 #include <sstream>
 
 #include "insitu/catalyst_bridge.hpp"
@@ -39,6 +40,8 @@ class Ball : public testing::Test {
     signal(SIGINT, own_handler);
     const ShatteredBall young(3000, 20, 100, 0.1), old(3000, 20, 100, 0.3);
     CatalystBridge bridge(scripts, young.settings(folder));
+    for (const char* channel : channel_names)
+      if (bridge.reads(channel)) read.insert(channel);
     first = bridge.execute(0, 0, std::vector{young.particles(), young.slice(), young.fragments()});
     second = bridge.execute(25, 30e-6, std::vector{old.particles(), old.slice(), old.fragments()});
     repeated = bridge.execute(25, 30e-6, std::vector{old.particles(), old.slice(), old.fragments()});
@@ -49,6 +52,7 @@ class Ball : public testing::Test {
 
   static inline std::string folder;
   static inline FrameReport first, second, repeated;
+  static inline std::set<std::string> read;  ///< channels, before the first frame
   static inline int failures = 0;
 };
 
@@ -108,6 +112,10 @@ TEST_F(Ball, AFailingScriptIsReportedOnceAndTheOthersGoOn) {
   std::ostringstream log;
   log << std::ifstream(folder + "/insitu.log").rdbuf();
   EXPECT_NE(log.str().find("ValueError: out of luck"), std::string::npos);
+}
+
+TEST_F(Ball, TheChannelsThatScriptsReadAreKnownBeforeTheFirstFrame) {
+  EXPECT_EQ(read, (std::set<std::string>{"particles", "slice", "fragments"}));
 }
 
 TEST_F(Ball, AStepIsShownOnce) { EXPECT_TRUE(repeated.images.empty() && repeated.pipelines.empty()); }

@@ -1,4 +1,4 @@
-/// A gas in the plane: no damage, no distension, no fragments, no ranges given by the scene.
+/// A gas in the plane: no damage, no distension, no fragments, and of velocity nothing known before the first frame.
 #include <gtest/gtest.h>
 
 #include "insitu/catalyst_bridge.hpp"
@@ -42,6 +42,9 @@ TEST(Gas, TheDefaultPipelinesShowWhatThereIs) {
   PipelineSettings s;
   s.run_folder = fresh_folder("gas");
   s.dimension = 2;
+  s.slice_fields = {"density", "pressure", "velocity"};
+  s.styles = {{"density", {"density", ColourMap::plasma, ColourRange{0, 1.5}}},
+              {"pressure", {"pressure", ColourMap::cool_warm, ColourRange{-5e4, 3e5}}}};
   s.view_center = {0.5, 0.05, 0};
   s.view_size = 1.2;
   s.time_end = 1e-3;
@@ -63,6 +66,16 @@ TEST(Gas, TheDefaultPipelinesShowWhatThereIs) {
     EXPECT_GT(picture.coloured_share(), 0.03);
     EXPECT_TRUE(picture.corners_are_white());
   }
+  // The pipelines have no colours of their own: they show what the settings say, as Ejecta's painter does.
+  const Picture panels(report.images[1]);
+  for (const auto& [field, values] : {std::pair{"density", density}, std::pair{"pressure", pressure}}) {
+    const FieldStyle& style = s.styles.at(field);
+    const ColourScale scale = colour_scale(style.map, style.range->min, style.range->max);
+    for (const double value : {values.front(), values.back()})
+      EXPECT_GT(panels.count(scale.at(value)), 1000) << field << ' ' << value;
+  }
+  const ColourScale open = colour_scale(ColourMap::viridis, 200 * 0.005, 200 * 0.995);  // of the first frame
+  EXPECT_GT(panels.count(open.at(100)), 50);
 }
 
 }  // namespace

@@ -6,10 +6,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <set>
 #include <string>
 #include <vector>
+
+#include "render/colour_map.hpp"
 
 namespace ejecta {
 
@@ -44,6 +47,15 @@ struct Picture {
     std::size_t count = 0;
     for (const auto& [r, g, b] : pixels) count += std::max({r, g, b}) - std::min({r, g, b}) > 40;
     return static_cast<double>(count) / static_cast<double>(pixels.size());
+  }
+  /// Number of pixels of a colour, but for rounding.
+  std::ptrdiff_t count(Colour colour) const {
+    const std::array wanted{255 * colour.red, 255 * colour.green, 255 * colour.blue};
+    return std::ranges::count_if(pixels, [&](const auto& p) {
+      for (std::size_t c = 0; c < 3; ++c)
+        if (std::abs(p[c] - wanted[c]) > 1.5) return false;
+      return true;
+    });
   }
   bool corners_are_white() const {
     const std::array<unsigned char, 3> white{255, 255, 255};

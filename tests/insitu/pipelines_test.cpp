@@ -60,13 +60,19 @@ TEST(Pipelines, EveryProblemIsReportedAtOnce) {
 TEST(Pipelines, SettingsAreWrittenAsJson) {
   PipelineSettings s;
   s.run_folder = "/a \"b\"\n";
-  s.ranges = {{"pressure", {-1e6, 2.5e8}}};
+  s.slice_fields = {"pressure", "sound_speed"};
+  s.styles = {{"pressure", {"bulk pressure", ColourMap::cool_warm, ColourRange{-1e6, 2.5e8}}}};
   Channel channel;
-  channel.fields = {{"pressure", "Pa", {}}};
+  channel.fields = {{"pressure", "Pa", {}}, {"sound_speed", "m/s", {}}};
   const std::string json = frame_json(s, std::span(&channel, 1));
   EXPECT_NE(json.find(R"("run_folder":"/a \"b\"\u000a")"), std::string::npos) << json;
-  EXPECT_NE(json.find(R"("ranges":{"pressure":[-1e+06,2.5e+08]})"), std::string::npos) << json;
-  EXPECT_NE(json.find(R"("units":{"pressure":"Pa"})"), std::string::npos) << json;
+  EXPECT_NE(json.find(R"("slice_fields":["pressure","sound_speed"])"), std::string::npos) << json;
+  EXPECT_NE(json.find(R"("pressure":{"unit":"Pa","label":"bulk pressure","range":[-1e+06,2.5e+08],"colours":[-1e+06,)"),
+            std::string::npos)
+      << json;
+  EXPECT_NE(json.find(R"("sound_speed":{"unit":"m/s","label":"sound speed","range":null,"colours":[0,)"),
+            std::string::npos)
+      << json;
 }
 
 }  // namespace

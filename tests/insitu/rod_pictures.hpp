@@ -15,6 +15,7 @@ void expect_pictures_of_tensors(int along) {
   const std::vector<std::string> scripts{shipped + "/ellipses.py", shipped + "/damage.py"};
   check_pipeline_scripts(scripts);
   CatalystBridge bridge(scripts, rod_settings(folder, Dim));
+  for (const char* channel : channel_names) EXPECT_EQ(bridge.reads(channel), channel == std::string("ellipsoids"));
   std::vector<std::string> images;
   for (const double crack : {0.0, 1.0}) {
     const Particles<Dim> rod = stretched_rod<Dim>(along, crack);

@@ -87,7 +87,10 @@ struct ShatteredBall {
     s.view_size = 3.2 * radius;
     s.time_end = 100e-6;
     s.particle_radius = 0.6 * spacing;
-    s.ranges = {{"pressure", {-50e6, 200e6}}, {"distension", {1, 3.3}}, {"damage", {0, 1}}};
+    s.slice_fields = {"pressure", "distension", "damage"};
+    s.styles = {{"pressure", {"pressure", ColourMap::cool_warm, ColourRange{-50e6, 200e6}}},
+                {"distension", {"distension", ColourMap::viridis, ColourRange{1, 3.3}}},
+                {"damage", {"damage", ColourMap::plasma, ColourRange{0, 1}}}};
     return s;
   }
 

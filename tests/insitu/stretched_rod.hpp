@@ -64,7 +64,8 @@ inline PipelineSettings rod_settings(const std::string& run_folder, int dimensio
   s.view_size = 1.6 * rod_length;
   s.time_end = 50e-6;
   s.nodes_per_h = rod_nodes_per_h;
-  s.ranges = {{"aspect", {1, 4}}, {"damage", {0, 1}}};
+  s.styles = {{"aspect", {"aspect", ColourMap::viridis, ColourRange{1, 4}}},
+              {"damage", {"damage", ColourMap::plasma, ColourRange{0, 1}}}};
   return s;
 }
 

@@ -51,7 +51,8 @@ class Oscillators final : public Package {
     archive.column("heat", "J", heat_);
   }
   Quantities quantities() const override { return {{"displacement", "m", x_[0], "of the first oscillator", true}}; }
-  std::vector<Channel> channels() const override {
+  std::vector<Channel> channels(const Asked& asked) const override {
+    if (!asked("oscillators")) return {};
     Channel channel{.name = "oscillators", .count = n(), .position = {x_, v_, heat_}, .fields = {}, .indices = {}};
     channel.fields.push_back({"displacement", "m", {x_}});
     return {channel};

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/errors.hpp"
@@ -19,6 +20,22 @@ TEST(ColourMap, EndsMeetThePublishedColours) {
   EXPECT_TRUE(near(map_colour(ColourMap::viridis, 7), 0.993, 0.906, 0.144));  // clamped
   EXPECT_TRUE(near(map_colour(ColourMap::inferno, 0.5), 0.736, 0.216, 0.330));
   EXPECT_TRUE(near(map_colour(ColourMap::cool_warm, 0.5), 0.865, 0.865, 0.865));
+}
+
+bool same(Colour a, Colour b) { return a.red == b.red && a.green == b.green && a.blue == b.blue; }
+
+TEST(ColourScale, KeepsTheMiddleOfADivergingMapAtZero) {
+  const ColourScale scale = colour_scale(ColourMap::cool_warm, -1e6, 2e7);
+  EXPECT_TRUE(same(scale.at(0), map_colour(ColourMap::cool_warm, 0.5)));
+  EXPECT_TRUE(same(scale.at(-1e6), map_colour(ColourMap::cool_warm, 0)));
+  EXPECT_TRUE(same(scale.at(3e7), map_colour(ColourMap::cool_warm, 1)));
+  EXPECT_TRUE(same(scale.at(5e6), map_colour(ColourMap::cool_warm, 0.625)));
+  EXPECT_TRUE(std::is_sorted(scale.values.begin(), scale.values.end()));
+}
+
+TEST(ColourScale, OfWhatNeverFallsBelowZeroIsSequential) {
+  EXPECT_TRUE(same(colour_scale(ColourMap::cool_warm, 0, 4).at(3), map_colour(ColourMap::inferno, 0.75)));
+  EXPECT_TRUE(same(colour_scale(ColourMap::viridis, -4, 4).at(0), map_colour(ColourMap::viridis, 0.5)));
 }
 
 TEST(ColourMap, FragmentsInARowAreToldApart) {
