@@ -32,7 +32,7 @@ struct Remark {
 };
 
 /// Whether somebody reads the channel of this name.
-using Asked = std::function<bool(std::string_view)>;
+using Asked = std::function<bool(const char*)>;
 
 class Package {
  public:

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "output/checkpoint.hpp"
-#include "sph/sph.hpp"
+#include "simulation/simulation.hpp"
 
 namespace ejecta {
 

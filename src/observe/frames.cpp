@@ -124,7 +124,7 @@ std::vector<Channel> Frames<Dim>::make_channels(Simulation& sim) {
   if (fragments_)
     make("fragments", [&] { return channels_.fragments(*fragments_, target_body(sph_.scene, sph_.outset.bodies)); });
   for (const auto& package : sim.packages)
-    for (Channel& channel : package->channels([&](std::string_view name) { return bridge_->reads(std::string(name)); }))
+    for (Channel& channel : package->channels([&](const char* name) { return bridge_->reads(name); }))
       made.push_back(std::move(channel));
   return made;
 }

@@ -5,7 +5,7 @@
 #include "observe/frames.hpp"
 #include "output/fragment_files.hpp"
 #include "output/monitor.hpp"
-#include "sph/sph.hpp"
+#include "simulation/simulation.hpp"
 
 namespace ejecta {
 

@@ -6,7 +6,7 @@
 #include "observe/frames.hpp"
 #include "output/fragment_files.hpp"
 #include "output/history.hpp"
-#include "sph/sph.hpp"
+#include "simulation/simulation.hpp"
 
 namespace ejecta {
 
