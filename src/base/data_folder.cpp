@@ -28,9 +28,9 @@ fs::path data_folder() {
   if (const fs::path installed = program.parent_path().parent_path() / "share" / "ejecta"; holds_data(installed))
     return installed;
   for (fs::path folder = program.parent_path(); folder.has_relative_path(); folder = folder.parent_path()) {
+    std::ifstream note(folder / "ejecta_data_folder");
     std::string named;
-    std::getline(std::ifstream(folder / "ejecta_data_folder"), named);
-    if (holds_data(named)) return named;
+    if (std::getline(note, named) && holds_data(named)) return named;
   }
   throw InputError("the folder with inputs/materials and catalyst_scripts is not beside " + program.string() +
                    ": set EJECTA_DATA to it");

@@ -22,7 +22,7 @@ class Installation(RunTest):
     def run_program(self, *arguments):
         environment = {name: value for name, value in os.environ.items() if name != "EJECTA_DATA"}
         done = subprocess.run([self.program, *map(str, arguments)], cwd=self.folder, env=environment,
-                              capture_output=True, text=True, timeout=100)
+                              capture_output=True, text=True, timeout=300)
         self.assertEqual(done.returncode, 0, done.stderr)
         return done.stdout
 

@@ -22,6 +22,14 @@ TEST(DataFolder, OfABuildIsTheSourceTree) {
   EXPECT_EQ(data_folder(), EJECTA_SOURCE_DIR);
 }
 
+TEST(DataFolder, DoesNotDependOnWhereTheProgramIsStarted) {
+  unsetenv("EJECTA_DATA");
+  const auto start = std::filesystem::current_path();
+  std::filesystem::current_path(EJECTA_SOURCE_DIR);  // where the folders of data are there by their names
+  EXPECT_EQ(data_folder(), EJECTA_SOURCE_DIR);
+  std::filesystem::current_path(start);
+}
+
 TEST(DataFolder, IsWhatTheEnvironmentSays) {
   const auto folder = std::filesystem::temp_directory_path() / "ejecta_data_folder_test";
   std::filesystem::create_directories(folder / "inputs" / "materials");
