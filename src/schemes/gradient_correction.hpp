@@ -76,28 +76,28 @@ GradientCorrection<Dim> gradient_correction(const Mat<Dim>& moment, double least
   return c;
 }
 
-/// A particle that touches other pieces, across a surface of normal n, is strained by them along n alone: with the
+/// A particle in contact with other pieces, across a surface of normal n, is strained by them along n alone: with the
 /// gradients L_own of its own neighbours and L_all of all,
 ///   L = L_own + n [n.(L_all - L_own) n] n^T,
 /// so that what slides or turns along does not shear it, and a common rotation is one. The adjoint of that for a stress
-/// sigma, of which s = min(0, n.sigma n) passes on (what touches pushes and never pulls):
+/// sigma, of which s = min(0, n.sigma n) passes on (contact pushes and never pulls):
 ///   on others    T' = P_all s n n^T Q_all
 ///   on its own   T = P_own (sigma - s n n^T) Q_own + T'
 /// Work is heat here too, and T M_own^T + T' M_others^T is symmetric: angular momentum stays exact.
 template <int Dim>
-struct TouchingStress {
+struct ContactStress {
   Mat<Dim> own, others;
 };
 template <int Dim>
-TouchingStress<Dim> touching_stress(const Mat<Dim>& sigma, const Vec<Dim>& normal, const GradientCorrection<Dim>& own,
-                                    const GradientCorrection<Dim>& all) {
+ContactStress<Dim> contact_stress(const Mat<Dim>& sigma, const Vec<Dim>& normal, const GradientCorrection<Dim>& own,
+                                  const GradientCorrection<Dim>& all) {
   const Mat<Dim> passed = std::min(0.0, normal.dot(sigma * normal)) * normal * normal.transpose();
   const Mat<Dim> others = all.stress(passed);
   return {own.stress(sigma - passed) + others, others};
 }
 /// Opening strains nothing that is not pressed.
 template <int Dim>
-Mat<Dim> touching_gradient(const Mat<Dim>& own, const Mat<Dim>& all, const Vec<Dim>& normal, bool pressed) {
+Mat<Dim> contact_gradient(const Mat<Dim>& own, const Mat<Dim>& all, const Vec<Dim>& normal, bool pressed) {
   const double opening = normal.dot((all - own) * normal);
   return pressed || opening < 0 ? Mat<Dim>(own + opening * normal * normal.transpose()) : own;
 }

@@ -30,6 +30,7 @@
 
 #include "base/simd.hpp"
 #include "base/types.hpp"
+#include "schemes/lane_algebra.hpp"
 
 namespace ejecta {
 
@@ -38,21 +39,6 @@ template <int Dim>
 double symmetric_product(const Symmetric<Dim>& s, const Symmetric<Dim>& t) {
   constexpr int off = symmetric_size<Dim> - Dim;
   return s.dot(t) + s.template tail<off>().dot(t.template tail<off>());
-}
-
-/// y = A x and x.y for a symmetric A.
-template <int Dim, class V>
-V quadratic_form(const V (&A)[symmetric_size<Dim>], const V (&x)[Dim], V (&y)[Dim]) {
-  if constexpr (Dim == 2) {
-    y[0] = A[0] * x[0] + A[2] * x[1];
-    y[1] = A[2] * x[0] + A[1] * x[1];
-    return x[0] * y[0] + x[1] * y[1];
-  } else {
-    y[0] = A[0] * x[0] + A[3] * x[1] + A[4] * x[2];
-    y[1] = A[3] * x[0] + A[1] * x[1] + A[5] * x[2];
-    y[2] = A[4] * x[0] + A[5] * x[1] + A[2] * x[2];
-    return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
-  }
 }
 
 /// A vote of one particle on the shape of H: the logarithm of the covariance of its first shell, made unimodular.
