@@ -14,11 +14,10 @@ namespace ejecta {
 /// with the neighbours instead of growing beyond limits: a particle torn off all others strains no more.
 inline constexpr double least_moment = 0.2;
 
-/// Bound on (h^2 sum_j |V_j grad W|^2)^(1/2) over the smallest stretch, how much of a relative velocity a particle takes
-/// for strain [1/h]: 0.6 to 0.7 in the interior, 1.0 to 1.2 at a face, 1.6 at a corner (cubic lattice, 1.3 per h). The
-/// few of a torn clump come nearer to each other than a spacing; exact gradients would make six that are half a spacing
-/// apart swing at up to 7.4 c/h, where the lattice has 1.1 and its corners 2.6: faster than steps of signal crossings
-/// follow, and the energy of such swings would be taken from their heat. With the bound they have 4.6.
+/// Bound on (h^2 sum_j |V_j grad W|^2)^(1/2) over the smallest stretch, how much of a relative velocity a particle
+/// takes for strain [1/h]: just above that of a corner of a lattice. The few of a torn clump come nearer to each other
+/// than a spacing; exact gradients would make them swing faster than steps of signal crossings follow, and the energy
+/// of such swings would be taken from their heat (docs/pair_pass.md).
 inline constexpr double most_stiffness = 1.75;
 
 /// Smallest stretch that is inverted, of particles with this (h^2 sum_j |V_j grad W|^2)^(1/2).
