@@ -14,11 +14,10 @@ namespace ejecta {
 /// with the neighbours instead of growing beyond limits: a particle torn off all others strains no more.
 inline constexpr double least_moment = 0.2;
 
-/// Bound on (h^2 sum_j |V_j grad W|^2)^(1/2) over the smallest stretch, how much of a relative velocity a particle takes
-/// for strain [1/h]: 0.6 to 0.7 in the interior, 1.0 to 1.2 at a face, 1.6 at a corner (cubic lattice, 1.3 per h). The
-/// few of a torn clump come nearer to each other than a spacing; exact gradients would make six that are half a spacing
-/// apart swing at up to 7.4 c/h, where the lattice has 1.1 and its corners 2.6: faster than steps of signal crossings
-/// follow, and the energy of such swings would be taken from their heat. With the bound they have 4.6.
+/// Bound on (h^2 sum_j |V_j grad W|^2)^(1/2) over the smallest stretch, how much of a relative velocity a particle
+/// takes for strain [1/h]: just above that of a corner of a lattice. The few of a torn clump come nearer to each other
+/// than a spacing; exact gradients would make them swing faster than steps of signal crossings follow, and the energy
+/// of such swings would be taken from their heat (docs/pair_pass.md).
 inline constexpr double most_stiffness = 1.75;
 
 /// Smallest stretch that is inverted, of particles with this (h^2 sum_j |V_j grad W|^2)^(1/2).
@@ -76,28 +75,28 @@ GradientCorrection<Dim> gradient_correction(const Mat<Dim>& moment, double least
   return c;
 }
 
-/// A particle that touches other pieces, across a surface of normal n, is strained by them along n alone: with the
+/// A particle in contact with other pieces, across a surface of normal n, is strained by them along n alone: with the
 /// gradients L_own of its own neighbours and L_all of all,
 ///   L = L_own + n [n.(L_all - L_own) n] n^T,
 /// so that what slides or turns along does not shear it, and a common rotation is one. The adjoint of that for a stress
-/// sigma, of which s = min(0, n.sigma n) passes on (what touches pushes and never pulls):
+/// sigma, of which s = min(0, n.sigma n) passes on (contact pushes and never pulls):
 ///   on others    T' = P_all s n n^T Q_all
 ///   on its own   T = P_own (sigma - s n n^T) Q_own + T'
 /// Work is heat here too, and T M_own^T + T' M_others^T is symmetric: angular momentum stays exact.
 template <int Dim>
-struct TouchingStress {
+struct ContactStress {
   Mat<Dim> own, others;
 };
 template <int Dim>
-TouchingStress<Dim> touching_stress(const Mat<Dim>& sigma, const Vec<Dim>& normal, const GradientCorrection<Dim>& own,
-                                    const GradientCorrection<Dim>& all) {
+ContactStress<Dim> contact_stress(const Mat<Dim>& sigma, const Vec<Dim>& normal, const GradientCorrection<Dim>& own,
+                                  const GradientCorrection<Dim>& all) {
   const Mat<Dim> passed = std::min(0.0, normal.dot(sigma * normal)) * normal * normal.transpose();
   const Mat<Dim> others = all.stress(passed);
   return {own.stress(sigma - passed) + others, others};
 }
 /// Opening strains nothing that is not pressed.
 template <int Dim>
-Mat<Dim> touching_gradient(const Mat<Dim>& own, const Mat<Dim>& all, const Vec<Dim>& normal, bool pressed) {
+Mat<Dim> contact_gradient(const Mat<Dim>& own, const Mat<Dim>& all, const Vec<Dim>& normal, bool pressed) {
   const double opening = normal.dot((all - own) * normal);
   return pressed || opening < 0 ? Mat<Dim>(own + opening * normal * normal.transpose()) : own;
 }

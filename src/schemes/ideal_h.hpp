@@ -7,7 +7,7 @@
 /// neighbours. So each particle
 /// 1. singles out its true first shell: a neighbour behind another (beyond the plane through that one) is not in it. A
 ///    free surface completes the shell by its mirror image. Its plain covariance M then answers a strain F exactly, as
-///    F M F^T, as long as the shell is right. Without this test 2:1 lattices are already missed;
+///    F M F^T, as long as the shell is right;
 /// 2. takes the mean of the logarithms of its neighbours' votes, weighted by the kernel. Without the mean 10 % disorder
 ///    reaches aspects that fail the band of single particles, and surfaces are not round;
 /// 3. draws the mean towards round by its own variance, A |A|^2/(|A|^2 + 3 var): exactly nothing on a perfect lattice,
@@ -15,21 +15,12 @@
 /// 4. chooses the shell in the frame H~^s, s = 1 - 0.1 ln(aspect) (at least 1/2; H~ unimodular). With s = 1 the shell
 ///    would be affine invariant: in endless shear every H that moves with the flow would be a perfect answer. With s =
 ///    0 stretched and disordered sets are taken for round ones.
-///
-/// Measured (n_h 1.2 to 2, all kernels, 2D and 3D, from round unless said): perfect square
-/// and cubic lattices stretched by 2, 4, 10: 2.000, 4.000, 9.968, n_h kept to 1e-4; hexagonal and face-centred ones by
-/// 2, 4, moved with the flow: 2.000, 4.000. 10 % jitter: mean aspect 1.004 to 1.035, worst particle 1.43; stretched by
-/// 4: 3.96 to 4.03, particles 3.7 to 4.4. 20 %: 1.02 to 1.07; stretched by 4: 3.85, but from round in 2D at n_h 1.3
-/// only 3.4 to 3.6. Stretched to 4 in 100 steps with votes every 5: 4.00, never off by more than 2 %. Shear to 20,
-/// votes every 5 (10) steps: mean aspect 4 (4), at most 6 (6), at 0.01 a step; 6 (9), at most 7 (12), at 0.05; single
-/// particles of a jittered lattice that is sheared without ever relaxing up to 16 at 0.02 and 20 at 0.05, where the
-/// largest aspect acts. Taking only half of each vote: 9 (11). H moved with the
-/// flow alone: 402. A stretch along no axis of a lattice may be answered by another lattice's H, equally isotropic in
-/// its frame.
+/// docs/pair_pass.md has figures.
 #include <array>
 
 #include "base/simd.hpp"
 #include "base/types.hpp"
+#include "schemes/lane_algebra.hpp"
 
 namespace ejecta {
 
@@ -38,21 +29,6 @@ template <int Dim>
 double symmetric_product(const Symmetric<Dim>& s, const Symmetric<Dim>& t) {
   constexpr int off = symmetric_size<Dim> - Dim;
   return s.dot(t) + s.template tail<off>().dot(t.template tail<off>());
-}
-
-/// y = A x and x.y for a symmetric A.
-template <int Dim, class V>
-V quadratic_form(const V (&A)[symmetric_size<Dim>], const V (&x)[Dim], V (&y)[Dim]) {
-  if constexpr (Dim == 2) {
-    y[0] = A[0] * x[0] + A[2] * x[1];
-    y[1] = A[2] * x[0] + A[1] * x[1];
-    return x[0] * y[0] + x[1] * y[1];
-  } else {
-    y[0] = A[0] * x[0] + A[3] * x[1] + A[4] * x[2];
-    y[1] = A[3] * x[0] + A[1] * x[1] + A[5] * x[2];
-    y[2] = A[4] * x[0] + A[5] * x[1] + A[2] * x[2];
-    return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
-  }
 }
 
 /// A vote of one particle on the shape of H: the logarithm of the covariance of its first shell, made unimodular.

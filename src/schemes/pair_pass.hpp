@@ -1,6 +1,7 @@
 #pragma once
-/// The pair passes: sums over neighbours in gather form. A thread writes only its own particles, and the force of j on
-/// i is minus that of i on j bit for bit, so momentum is exact and nothing depends on the number of threads.
+/// The pair passes: sums over neighbours in gather form (docs/pair_pass.md says how they are built). A thread writes
+/// only its own particles, and the force of j on i is minus that of i on j bit for bit, so momentum is exact and
+/// nothing depends on the number of threads.
 #include <memory>
 #include <span>
 #include <vector>
@@ -20,12 +21,12 @@ struct PairPassSettings {
   bool stress = false;               ///< stress tensors and pieces; otherwise pressure alone
   bool velocity_gradient = false;    ///< store dv_a/dx_b (always with stress)
   bool gradient_correction = false;  ///< make it exact for linear velocity fields, and forces its adjoint (with stress)
-  bool tensor = false;               ///< smoothing tensors instead of lengths (velocity gradients always stored)
-  bool coupled = false;              ///< tensor damage cuts the stress (always with stress)
+  bool asph = false;                 ///< smoothing tensors instead of lengths (velocity gradients always stored)
+  bool cracked = false;              ///< tensor damage cuts the stress (always with stress)
   bool bonded = false;               ///< some particles keep the neighbours of the start (always with stress)
   double alike = 4;                  ///< weights are those of masses up to this ratio of densities, see rates()
   double viscosity_alpha = 1, viscosity_beta = 2;
-  bool touches = false;    ///< there are several pieces, or a solid and a wall
+  bool contacts = false;   ///< there are several pieces, or a solid and a wall
   double friction = 0;     ///< coefficient of friction between pieces
   double length_unit = 1;  ///< a power of two near the particle spacing [m]
   PairRules rules;
@@ -53,25 +54,25 @@ class PairPass {
   /// continuity equation is then the time derivative of the sum over masses, and no error of the density is left behind
   /// by a front that compresses three times. With s_ij = r_j/r_i they are volumes: contacts of very different
   /// densities stay at rest. s goes from one to the other while the densities differ by `alike` to four times that.
-  /// q = f rho_ij (-alpha c mu + beta mu^2) is Monaghan's viscosity (1992), f the mean of both factors; rho_ij is
-  /// the harmonic mean, at most twice the lighter one: light matter is not thrown off heavy matter. In passes without
-  /// stress q acts along g_ij. Of v.x in mu the part that both particles strain by anyway (by their velocity gradients
-  /// of the evaluation before, as in a limited linear reconstruction [van Leer 1979; Frontiere et al. 2017]) is left
-  /// out, times 1 - shock_switch: full viscosity in shocks, none in smooth flow, and always what damps a disordered
-  /// lattice.
+  /// q is the flux (flux.hpp); q = f rho_ij (-alpha c mu + beta mu^2) is Monaghan's viscosity (1992), f the mean of
+  /// both factors; rho_ij is the harmonic mean, at most twice the lighter one: light matter is not thrown off heavy
+  /// matter. In passes without stress q acts along g_ij. Of v.x in mu the part that both particles strain by anyway (by
+  /// their velocity gradients of the evaluation before, as in a limited linear reconstruction [van Leer 1979; Frontiere
+  /// et al. 2017]) is left out, times 1 - shock_switch: full viscosity in shocks, none in smooth flow, and always what
+  /// damps a disordered lattice.
   ///
   /// Particles of different pieces, and a solid and a wall, are no neighbours. From where they come within a particle's
-  /// size (PairRecord::touching, t_ij the larger of both) they act on each other by what presses across the contact,
+  /// size (PairRecord::contact, t_ij the larger of both) they act on each other by what presses across the contact,
   ///   dv_i/dt += 1/rho_i sum_j V_j [t_ij (a_ij T'_i + a_ji T'_j) g_ij - q_ij x_ji (x_ji.g_ij)/r^2],
   /// T' and the strain that goes with it as in gradient_correction.hpp, a_ij = 2 Z_j/(Z_i + Z_j) with the impedances
-  /// Z = rho c: what touches pushes, never pulls, and slides. The viscosity sees what closes the gap alone. Friction
+  /// Z = rho c: a contact pushes, never pulls, and slides. The viscosity sees what closes the gap alone. Friction
   /// adds min(mu p, Z |v_t|) against the sliding velocity v_t, p the force across the contact.
   ///
   /// Bonded, particles that hold on to their first neighbours (bond = 1) take W and its gradient at the places of the
   /// start: nothing clumps under tension [Belytschko et al. 2000], and M^-1 brings the deformation in. Bonded particles
-  /// of one piece that were further apart than twice the support touch like strangers.
+  /// of one piece that were further apart than twice the support meet like strangers.
   ///
-  /// Coupled, S is what cracks let through (cracked_stress.hpp), and coupled_gradient is the velocity gradient summed
+  /// Cracked, S is what cracks let through (cracked_stress.hpp), and coupled_gradient is the velocity gradient summed
   /// with weights f_ij = 1 - max(n.D_i n, n.D_j n), n the direction of the pair (D = 0 where a material is not cut): an
   /// opening crack does not strain the matter beside it.
   ///
@@ -83,7 +84,7 @@ class PairPass {
 };
 
 /// Number of particles per cluster that the passes of this precision expect in the lists.
-inline std::size_t cluster_size(Precision precision) { 
+inline std::size_t cluster_size(Precision precision) {
   return precision == Precision::mixed ? simd::lanes<float> : simd::lanes<double>;
 }
 

@@ -1,6 +1,10 @@
 #pragma once
 /// The passes of one kernel, by what the settings ask. Included only by the sources that EjectaPairPasses.cmake makes.
+#include "schemes/monaghan_viscosity.hpp"
 #include "schemes/pair_pass_impl.hpp"
+#include "schemes/pair_rates.hpp"
+#include "schemes/pair_rates_close.hpp"
+#include "schemes/pair_surroundings.hpp"
 
 namespace ejecta {
 
@@ -8,7 +12,7 @@ namespace ejecta {
 template <int Dim, class K>
 std::unique_ptr<PairPass<Dim>> make_isotropic_pass_of(const PairPassSettings& s) {
   auto of_precision = [&]<class T>(T) -> std::unique_ptr<PairPass<Dim>> {
-    auto of = [&]<PassKind Kind>() { return std::make_unique<PairPassOf<T, Dim, Kind, K>>(s); };
+    auto of = [&]<PassKind Kind>() { return std::make_unique<PairPassOf<T, Dim, Kind, K, MonaghanViscosity>>(s); };
     constexpr bool stress = true, gradient = true;
     if (s.stress && s.bonded) return of.template operator()<PassKind{stress, gradient, false, false, true}>();
     if (s.stress) return of.template operator()<PassKind{stress, gradient}>();
@@ -18,20 +22,21 @@ std::unique_ptr<PairPass<Dim>> make_isotropic_pass_of(const PairPassSettings& s)
   return s.precision == Precision::mixed ? of_precision(float{}) : of_precision(double{});
 }
 
-/// The same with smoothing tensors or with stress cut off by cracks: both always with velocity gradients.
+/// The same with smoothing tensors, or with cracks that cut the stress across them: both always with velocity
+/// gradients.
 template <int Dim, class K>
-std::unique_ptr<PairPass<Dim>> make_tensor_pass_of(const PairPassSettings& s) {
+std::unique_ptr<PairPass<Dim>> make_anisotropic_pass_of(const PairPassSettings& s) {
   auto of_precision = [&]<class T>(T) -> std::unique_ptr<PairPass<Dim>> {
     auto of = [&]<PassKind Kind>() -> std::unique_ptr<PairPass<Dim>> {
-      constexpr PassKind bonded{Kind.stress, Kind.gradient, Kind.tensor, Kind.coupled, Kind.stress};
-      if (Kind.stress && s.bonded) return std::make_unique<PairPassOf<T, Dim, bonded, K>>(s);
-      return std::make_unique<PairPassOf<T, Dim, Kind, K>>(s);
+      constexpr PassKind bonded{Kind.stress, Kind.gradient, Kind.asph, Kind.cracked, Kind.stress};
+      if (Kind.stress && s.bonded) return std::make_unique<PairPassOf<T, Dim, bonded, K, MonaghanViscosity>>(s);
+      return std::make_unique<PairPassOf<T, Dim, Kind, K, MonaghanViscosity>>(s);
     };
-    constexpr bool stress = true, gradient = true, tensor = true, coupled = true;
-    if (s.coupled && s.tensor) return of.template operator()<PassKind{stress, gradient, tensor, coupled}>();
-    if (s.coupled) return of.template operator()<PassKind{stress, gradient, !tensor, coupled}>();
-    if (s.stress) return of.template operator()<PassKind{stress, gradient, tensor}>();
-    return of.template operator()<PassKind{!stress, gradient, tensor}>();
+    constexpr bool stress = true, gradient = true, asph = true, cracked = true;
+    if (s.cracked && s.asph) return of.template operator()<PassKind{stress, gradient, asph, cracked}>();
+    if (s.cracked) return of.template operator()<PassKind{stress, gradient, !asph, cracked}>();
+    if (s.stress) return of.template operator()<PassKind{stress, gradient, asph}>();
+    return of.template operator()<PassKind{!stress, gradient, asph}>();
   };
   return s.precision == Precision::mixed ? of_precision(float{}) : of_precision(double{});
 }

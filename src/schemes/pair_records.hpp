@@ -6,18 +6,17 @@
 
 #include "particles/boundary_images.hpp"
 #include "particles/particles.hpp"
-#include "schemes/gradient_correction.hpp"
-#include "schemes/half_space.hpp"
+#include "schemes/surroundings.hpp"
 
 namespace ejecta {
 
 /// What the records of a pass hold.
 struct RecordKind {
   bool stress = false;    ///< the stress as a tensor, corrected, and whom it acts on; not pressure alone
-  bool tensor = false;    ///< the smoothing metric, not a smoothing length
-  bool coupled = false;   ///< the damage tensor (only with stress)
+  bool asph = false;      ///< the smoothing metric, not a smoothing length
+  bool cracked = false;   ///< the damage tensor (only with stress)
   bool bonded = false;    ///< the place at the start (only with stress)
-  bool strained = false;  ///< the rate of strain (always with stress or tensor)
+  bool strained = false;  ///< the rate of strain (always with stress or asph)
 };
 
 /// Constants of a pass that its records hold as factors, so that the pair loop has less to do.
@@ -41,48 +40,22 @@ struct PairRules {
 /// The piece that stands for whatever is behind a reflecting face.
 inline constexpr int wall = -1;
 
-/// What a first pass over the pairs tells of the surroundings of every particle; needed only with stress.
-template <int Dim>
-struct Surroundings {
-  struct Sums {
-    Mat<Dim> moment = Mat<Dim>::Zero();   ///< M of the own neighbours
-    Mat<Dim> touched = Mat<Dim>::Zero();  ///< what other pieces add to it
-    double least = least_moment;          ///< smallest stretch of M that is inverted as it stands
-    double least_of_all = least_moment;   ///< the same with what other pieces add
-    Vec<Dim> outward = Vec<Dim>::Zero();  ///< sum over other pieces of V_j grad W, in 1/length_unit
-    double occupied = 0;                  ///< sum over other pieces of V_j W
-    /// Towards what is touched; 0 if nothing is.
-    Vec<Dim> normal() const { return occupied > 0 ? Vec<Dim>(outward.normalized()) : Vec<Dim>(Vec<Dim>::Zero()); }
-  };
-  std::vector<Sums> sums;
-  bool corrects = false;  ///< gradients are corrected by M
-  /// `occupied` of a particle half its own size from what it touches, at u = size/(2 h).
-  HalfSpace half_space;
-
-  /// By the own neighbours, and by all.
-  GradientCorrection<Dim> own(const Sums& s) const {
-    return corrects ? gradient_correction<Dim>(s.moment, s.least) : GradientCorrection<Dim>{};
-  }
-  GradientCorrection<Dim> all(const Sums& s) const {
-    return corrects ? gradient_correction<Dim>(s.moment + s.touched, s.least_of_all) : GradientCorrection<Dim>{};
-  }
-};
-
 /// Places within a record. T is the precision of the pass. Lengths are in units of a power of two near the particle
 /// spacing, so that single precision neither over- nor underflows; everything else is SI.
 /// In single precision a position is the sum of two floats, and differences of positions carry full relative precision.
-/// Symmetric tensors are stored xx yy xy | xx yy zz xy xz yz, others row by row.
-template <class T, int Dim, RecordKind Kind>
+/// Symmetric tensors are stored xx yy xy | xx yy zz xy xz yz, others row by row. The flux (flux.hpp) adds its own
+/// places.
+template <class T, int Dim, RecordKind Kind, class Flux>
 struct PairRecord {
   static constexpr bool split = sizeof(T) == sizeof(float);
   static constexpr int stresses = Kind.stress ? Dim * Dim : 1;
   // What the first pass reads comes first: one cache line.
   static constexpr int x = 0;
   static constexpr int x_low = x + Dim;                ///< only if split
-  static constexpr int h = x_low + (split ? Dim : 0);  ///< a twentieth of it, unless tensor
-  static constexpr int reach_reciprocal = h + 1;       ///< 1/(support h), unless tensor
-  static constexpr int metric = h;                     ///< G = H H, if tensor
-  static constexpr int slope_norm = h + (Kind.tensor ? symmetric_size<Dim> : 2);
+  static constexpr int h = x_low + (split ? Dim : 0);  ///< a twentieth of it, unless asph
+  static constexpr int reach_reciprocal = h + 1;       ///< 1/(support h), unless asph
+  static constexpr int metric = h;                     ///< G = H H, if asph
+  static constexpr int slope_norm = h + (Kind.asph ? symmetric_size<Dim> : 2);
   static constexpr int volume = slope_norm + 1;                ///< V0 = m/rho0, uncompressed
   static constexpr int expansion = volume + 1;                 ///< r = rho0/rho
   static constexpr int compression = expansion + 1;            ///< 1/r
@@ -94,35 +67,34 @@ struct PairRecord {
   static constexpr int density = v + Dim;                                    ///< rho
   static constexpr int sound_speed = density + 1;
   static constexpr int mass = sound_speed + 1;
-  static constexpr int viscosity_factor = mass + 1;    ///< half of it
-  static constexpr int stress = viscosity_factor + 1;  ///< r^2 T (gradient_correction.hpp), or -r^2 P alone [Pa]
-  static constexpr int damage = stress + stresses;     ///< damage tensor, if coupled
-  static constexpr int smooth = damage + (Kind.coupled ? symmetric_size<Dim> : 0);  ///< half of 1 - shock_switch
-  static constexpr int strain = smooth + (Kind.strained ? 1 : 0);                   ///< e_xx e_yy 2 e_xy | ..., times length_unit
-  static constexpr int size = strain + (Kind.strained ? symmetric_size<Dim> : 0);
+  static constexpr int stress = mass + 1;           ///< r^2 T (gradient_correction.hpp), or -r^2 P alone [Pa]
+  static constexpr int damage = stress + stresses;  ///< damage tensor, if cracked
+  static constexpr int flux = damage + (Kind.cracked ? symmetric_size<Dim> : 0);
+  using FluxRecord = typename Flux::template Record<Dim, Kind.strained>;
+  static constexpr int size = flux + FluxRecord::size;
 
-  // A record of its own, for touching pieces only.
-  static constexpr int touching = 0;          ///< how far other pieces are touched, 0 to 1
+  // A record of its own, for pieces in contact only.
+  static constexpr int contact = 0;           ///< how far in contact with other pieces, 0 to 1
   static constexpr int normal = 1;            ///< unit vector towards them, or 0
   static constexpr int press = normal + Dim;  ///< r^2 T' that acts on them [Pa]
-  static constexpr int touch_size = press + stresses;
+  static constexpr int contact_size = press + stresses;
 
-  /// Fills one record for each particle, then one for each image, but for stress and what touches other pieces.
-  /// Reads position, velocity, smoothing_length or smoothing_metric, mass, density, sound_speed, and where they exist
-  /// viscosity_factor, shock_switch, velocity_gradient, damage_tensor, start_position and bond.
+  /// Fills one record for each particle, then one for each image, but for the stress.
+  /// Reads position, velocity, smoothing_length or smoothing_metric, mass, density, sound_speed, what the flux reads,
+  /// and where they exist damage_tensor, start_position and bond.
   static void pack(const Particles<Dim>& particles, const std::vector<Image>& images, const PairRules& rules,
                    const RecordScales& scales, std::vector<T>& records);
 
-  /// Fills touch records, but for the stress.
-  static void pack_touch(const Particles<Dim>& particles, const std::vector<Image>& images, const PairRules& rules,
-                         const Surroundings<Dim>& around, std::vector<T>& touches);
+  /// Fills the records of contact, but for the stress.
+  static void pack_contacts(const Particles<Dim>& particles, const std::vector<Image>& images, const PairRules& rules,
+                            const Surroundings<Dim>& around, std::vector<T>& contacts);
 
   /// Fills in the stress that acts on the partners. Reads pressure and where they exist deviatoric_stress and
   /// damage_tensor. `intact` is the fraction of the deviator that damage leaves (empty: all of it).
-  /// `touches` may be empty.
+  /// `contacts` may be empty.
   static void pack_stress(const Particles<Dim>& particles, const std::vector<Image>& images, const PairRules& rules,
                           std::span<const double> intact, const Surroundings<Dim>& around, std::vector<T>& records,
-                          std::vector<T>& touches);
+                          std::vector<T>& contacts);
 };
 
 /// The power of two just below the length.

@@ -2,6 +2,7 @@
 /// Support axis of a scheme: how the smoothing of two particles makes the kernel gradient of their pair. Lanes i
 /// against one partner j; the gradient is the mean of those with the smoothing of i and of j, so it is antisymmetric.
 #include "schemes/kernels.hpp"
+#include "schemes/lane_algebra.hpp"
 #include "schemes/pair_records.hpp"
 
 namespace ejecta {
@@ -85,12 +86,12 @@ struct IsotropicSupport {
 /// Smoothing tensor H by its metric G = H H (ASPH): W = norm det(H) w(|H x|), grad W = norm det(H) w'/|H x| G x
 /// [Owen et al. 1998; Owen 2010].
 template <class V, int Dim, class K, class R>
-struct TensorSupport {
+struct EllipsoidalSupport {
   using S = kernel_detail::Scalar<V>;
   V metric[symmetric_size<Dim>], slope_norm;  ///< of the lanes i
 
   template <class Load>
-  explicit TensorSupport(Load&& load) : slope_norm(load(R::slope_norm)) {
+  explicit EllipsoidalSupport(Load&& load) : slope_norm(load(R::slope_norm)) {
     for (int s = 0; s < symmetric_size<Dim>; ++s) metric[s] = load(R::metric + s);
   }
 
@@ -116,7 +117,7 @@ struct TensorSupport {
 
   Pair pair(const V (&dx)[Dim], V, const S* j) const {
     V image_i[Dim], image_j[Dim];  // G x
-    const V eta2_i = product(metric, dx, image_i), eta2_j = product(j + R::metric, dx, image_j);
+    const V eta2_i = quadratic_form<Dim>(metric, dx, image_i), eta2_j = quadratic_form<Dim>(j + R::metric, dx, image_j);
     const V reciprocal_i = simd::reciprocal_sqrt(V(eta2_i + support_detail::guard<S>));
     const V reciprocal_j = simd::reciprocal_sqrt(V(eta2_j + support_detail::guard<S>));
     const V q_i = eta2_i * reciprocal_i, q_j = eta2_j * reciprocal_j;
@@ -150,28 +151,12 @@ struct TensorSupport {
 
   void value(const V (&dx)[Dim], V, V& w, V& moment) const {
     V image[Dim];
-    const V eta2 = product(metric, dx, image);
+    const V eta2 = quadratic_form<Dim>(metric, dx, image);
     const V reciprocal = simd::reciprocal_sqrt(V(eta2 + support_detail::guard<S>)), q = eta2 * reciprocal;
     w = K::value(q);
     moment = -q * K::slope_over_q(q, reciprocal);
   }
   double norm(int k) const { return static_cast<double>(slope_norm[k]); }
-
- private:
-  /// y = G x; returns x.y.
-  template <class G>
-  static V product(const G& g, const V (&x)[Dim], V (&y)[Dim]) {
-    if constexpr (Dim == 2) {
-      y[0] = g[0] * x[0] + g[2] * x[1];
-      y[1] = g[2] * x[0] + g[1] * x[1];
-      return x[0] * y[0] + x[1] * y[1];
-    } else {
-      y[0] = g[0] * x[0] + g[3] * x[1] + g[4] * x[2];
-      y[1] = g[3] * x[0] + g[1] * x[1] + g[5] * x[2];
-      y[2] = g[4] * x[0] + g[5] * x[1] + g[2] * x[2];
-      return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
-    }
-  }
 };
 
 }  // namespace ejecta

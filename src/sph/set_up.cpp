@@ -149,8 +149,8 @@ std::unique_ptr<Sph<Dim>> set_up(const Scene& scene, const std::vector<Material>
   settings.gradient_correction = settings.bonded || corrects_gradients(scene, materials);
   settings.stress = settings.gradient_correction || sph->particles.has(Field::deviatoric_stress);
   settings.velocity_gradient = sph->particles.has(Field::velocity_gradient);
-  settings.tensor = sph->particles.has(Field::smoothing_metric);
-  settings.coupled = sph->particles.has(Field::coupled_gradient);
+  settings.asph = sph->particles.has(Field::smoothing_metric);
+  settings.cracked = sph->particles.has(Field::coupled_gradient);
   for (const Material& m : materials) {
     settings.rules.reference_density.push_back(m.bulk_density());
     settings.rules.cut_by_cracks.push_back(m.cuts_pairs());
@@ -158,7 +158,7 @@ std::unique_ptr<Sph<Dim>> set_up(const Scene& scene, const std::vector<Material>
   for (const Body& body : scene.bodies) settings.rules.sizes.push_back(scene.spacing * body.spacing_factor);
   settings.rules.pieces = pieces_of(scene, materials, sph->body_material);
   settings.rules.boundary = scene.boundary;
-  settings.touches = settings.bonded || anything_touches(scene, settings.rules.pieces);
+  settings.contacts = settings.bonded || anything_touches(scene, settings.rules.pieces);
   settings.friction = scene.contact.friction;
   // Sums of masses spread a contact over a kernel, and weights by mass go with them as far as those hold; densities by
   // continuity jump there.

@@ -62,7 +62,7 @@ constexpr bool needs_reciprocal_of_q(Kernel kernel) {
 /// x_j - x_i and r^2; positions of mixed precision are sums of two numbers.
 constexpr int separation(const PairWork& w) { return w.dim * (w.mixed ? 3 : 1) + 2 * w.dim - 1; }
 
-/// PairPass::rates (schemes/pair_pass_impl.hpp, schemes/support.hpp): one lane and one candidate, to see whether it is
+/// PairPass::rates (schemes/pair_rates.hpp, schemes/support.hpp): one lane and one candidate, to see whether it is
 /// within reach; once for the moments too, where gradients are corrected.
 constexpr int pair_reach(const PairWork& w) {
   const int distances = 1 + 4, slopes = 2 * reduced_slope(w.kernel) + 3;

@@ -8,22 +8,22 @@
 namespace ejecta {
 namespace {
 
-PairPassSettings bonded_settings(Precision precision, bool tensor) {
+PairPassSettings bonded_settings(Precision precision, bool asph) {
   auto s = settings_of(Kernel::wendland_c2, precision, true, true);
-  s.bonded = s.touches = true;
-  s.tensor = tensor;
+  s.bonded = s.contacts = true;
+  s.asph = asph;
   s.rules.sizes = {spacing, spacing};
   return s;
 }
 
 /// A cloud, all of it bonded as it stands now, then moved to F x with velocities A x.
 template <int Dim>
-Particles<Dim> deformed(const Mat<Dim>& F, const Mat<Dim>& A, bool tensor) {
+Particles<Dim> deformed(const Mat<Dim>& F, const Mat<Dim>& A, bool asph) {
   std::vector<Field> more{Field::start_position, Field::bond, Field::stretch};
-  if (tensor) more.push_back(Field::smoothing_metric);
+  if (asph) more.push_back(Field::smoothing_metric);
   auto p = random_matter<Dim>(400, 61, true, 1.5, more);
   even_surroundings(p);
-  if (tensor) random_ellipsoids(p, 2, 62);
+  if (asph) random_ellipsoids(p, 2, 62);
   const double longest = Eigen::JacobiSVD<Mat<Dim>>(F).singularValues()[0];
   for (std::size_t i = 0; i < p.size(); ++i) {
     const Vec<Dim> x = p.vector(Field::position, i);
@@ -44,9 +44,9 @@ TEST(Bonds, AUniformStretchGivesTheExactGradientAndKeepsTheNeighbours) {
   draw(0, 0) = 2.5;
   draw(0, 1) = 0.4;
   for (const Precision precision : {Precision::double_precision, Precision::mixed})
-    for (const bool tensor : {false, true}) {
-      const auto settings = bonded_settings(precision, tensor);
-      auto still = deformed<3>(Mat<3>::Identity(), A, tensor), drawn = deformed<3>(draw, A, tensor);
+    for (const bool asph : {false, true}) {
+      const auto settings = bonded_settings(precision, asph);
+      auto still = deformed<3>(Mat<3>::Identity(), A, asph), drawn = deformed<3>(draw, A, asph);
       run_rates(still, settings);
       run_rates(drawn, settings);
       const double tolerance = precision == Precision::mixed ? 3e-5 : 1e-12;
@@ -67,20 +67,20 @@ TEST(Bonds, AUniformStretchGivesTheExactGradientAndKeepsTheNeighbours) {
 
 TEST(Bonds, RatesAreTheFormulasAlsoWhereSomeHaveNone) {
   for (const Precision precision : {Precision::double_precision, Precision::mixed})
-    for (const bool tensor : {false, true}) {
-      SCOPED_TRACE(testing::Message() << "tensor " << tensor << ", precision " << static_cast<int>(precision));
-      auto settings = bonded_settings(precision, tensor);
+    for (const bool asph : {false, true}) {
+      SCOPED_TRACE(testing::Message() << "asph " << asph << ", precision " << static_cast<int>(precision));
+      auto settings = bonded_settings(precision, asph);
       Mat<3> turned = Eigen::AngleAxisd(2.5, Vec<3>(1, 2, 3).normalized()).toRotationMatrix();
       turned.col(0) *= 1.3;
-      auto p = deformed<3>(turned, Mat<3>::Zero(), tensor);
+      auto p = deformed<3>(turned, Mat<3>::Zero(), asph);
       Uniform uniform(63);
       for (std::size_t i = 0; i < p.size(); ++i) {
         p.column(Field::bond)[i] = i % 5 != 0;
         p.set_vector(Field::velocity, i, Vec<3>(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)) * 100);
-        // Some have come from far away: they touch like strangers.
+        // Some have come from far away: they meet like strangers.
         if (i % 17 == 0) p.column(Field::start_position)[i] += 20 * spacing;
         // Bonded ones keep the round support of the start, whatever way they have turned since.
-        if (tensor && i % 5 != 0)
+        if (asph && i % 5 != 0)
           p.set_symmetric(Field::smoothing_metric, i, round_metric<3>(p.column(Field::smoothing_length)[i]));
       }
       const Reference<3> reference(p, settings);
@@ -97,18 +97,18 @@ TEST(Bonds, RatesAreTheFormulasAlsoWhereSomeHaveNone) {
 }
 
 TEST(Bonds, ViscosityTakesEnergyFromMotionAlsoAfterATurn) {
-  for (const bool tensor : {false, true})
+  for (const bool asph : {false, true})
     for (const double angle : {0.0, 1.0, 2.0, 3.1}) {
-      auto settings = bonded_settings(Precision::double_precision, tensor);
+      auto settings = bonded_settings(Precision::double_precision, asph);
       const Mat<2> turn = Eigen::Rotation2Dd(angle).toRotationMatrix();
-      auto p = deformed<2>(turn, Mat<2>(-1e4 * Mat<2>::Identity()), tensor);
+      auto p = deformed<2>(turn, Mat<2>(-1e4 * Mat<2>::Identity()), asph);
       for (std::size_t i = 0; i < p.size(); ++i) {  // no stress: all that is left is viscosity
         p.column(Field::pressure)[i] = 0;
         for (int k = 0; k < 3; ++k) p.column(Field::deviatoric_stress, k)[i] = 0;
       }
       run_rates(p, settings);
       for (std::size_t i = 0; i < p.size(); ++i)
-        EXPECT_GT(p.column(Field::heating)[i], 0) << "tensor " << tensor << ", turned by " << angle;
+        EXPECT_GT(p.column(Field::heating)[i], 0) << "asph " << asph << ", turned by " << angle;
     }
 }
 

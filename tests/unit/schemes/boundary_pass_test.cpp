@@ -57,7 +57,7 @@ void expect_images_act_like_copies(const std::array<BoundaryKind, 3>& kinds, Pre
   settings.rules.boundary = {kinds, {-0.3 * edge, -0.3 * edge, -0.3 * edge}, {0.7 * edge, 0.7 * edge, 0.7 * edge}};
   settings.rules.pieces = solid ? std::vector{2, 2} : std::vector{0, 0};
   settings.rules.sizes = {spacing, spacing};
-  settings.touches = solid;
+  settings.contacts = solid;
   Particles<Dim> all;
   const auto copies = with_copies(p, settings.rules.boundary, all);
   const Reference<Dim> reference(all, settings, {}, copies);

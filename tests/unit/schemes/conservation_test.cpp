@@ -7,46 +7,46 @@ namespace {
 
 /// What a pass is asked to do.
 struct Kind {
-  bool stress = true, tensor = false, coupled = false, bonded = false, pieces = false;
+  bool stress = true, asph = false, cracked = false, bonded = false, pieces = false;
   double friction = 0;
 };
 constexpr Kind kinds[] = {{.stress = false},
                           {},
-                          {.tensor = true},
-                          {.coupled = true},
-                          {.tensor = true, .coupled = true},
+                          {.asph = true},
+                          {.cracked = true},
+                          {.asph = true, .cracked = true},
                           {.bonded = true},
-                          {.tensor = true, .bonded = true},
+                          {.asph = true, .bonded = true},
                           {.pieces = true},
-                          {.tensor = true, .pieces = true},
-                          {.coupled = true, .pieces = true},
+                          {.asph = true, .pieces = true},
+                          {.cracked = true, .pieces = true},
                           {.bonded = true, .pieces = true},
                           {.pieces = true, .friction = 0.4},
-                          {.tensor = true, .pieces = true, .friction = 0.4}};
+                          {.asph = true, .pieces = true, .friction = 0.4}};
 
 /// A random cloud of that kind with supports of `share` of what a whole neighbourhood needs.
 template <int Dim>
 Particles<Dim> matter(const Kind& kind, double share, PairPassSettings& settings) {
   std::vector<Field> more;
-  if (kind.tensor) more.push_back(Field::smoothing_metric);
-  if (kind.coupled) more.insert(more.end(), {Field::damage_tensor, Field::coupled_gradient});
+  if (kind.asph) more.push_back(Field::smoothing_metric);
+  if (kind.cracked) more.insert(more.end(), {Field::damage_tensor, Field::coupled_gradient});
   if (kind.bonded) more.insert(more.end(), {Field::start_position, Field::bond, Field::stretch});
   auto p = random_matter<Dim>(1000, 26, kind.stress, 2, more);
   for (double& h : p.column(Field::smoothing_length)) h *= share;
-  if (kind.tensor) random_ellipsoids(p, 3, 27);
+  if (kind.asph) random_ellipsoids(p, 3, 27);
   Uniform uniform(28);
   for (std::size_t i = 0; i < p.size(); ++i) {
     const Vec<Dim> random = Vec<Dim>::NullaryExpr([&] { return uniform(-1, 1); });
-    if (kind.coupled && i % 3 != 0)
+    if (kind.cracked && i % 3 != 0)
       p.set_symmetric(Field::damage_tensor, i, uniform(0, 1) / random.squaredNorm() * random * random.transpose());
     if (!kind.bonded) continue;
     p.set_vector(Field::start_position, i, p.vector(Field::position, i) + 0.5 * spacing * random);
     p.column(Field::bond)[i] = i % 4 != 0;
     p.column(Field::stretch)[i] = 3;
   }
-  settings.tensor = kind.tensor;
-  settings.coupled = kind.coupled;
-  settings.bonded = settings.touches = kind.bonded;
+  settings.asph = kind.asph;
+  settings.cracked = kind.cracked;
+  settings.bonded = settings.contacts = kind.bonded;
   settings.friction = kind.friction;
   settings.rules.sizes = {spacing, spacing};
   settings.rules.cut_by_cracks = {1, 1};
@@ -57,7 +57,7 @@ Particles<Dim> matter(const Kind& kind, double share, PairPassSettings& settings
 
 template <int Dim>
 void expect_balance(const Kind& kind, Precision precision, double share) {
-  SCOPED_TRACE(testing::Message() << Dim << "D, tensor " << kind.tensor << ", coupled " << kind.coupled << ", bonded "
+  SCOPED_TRACE(testing::Message() << Dim << "D, asph " << kind.asph << ", cracked " << kind.cracked << ", bonded "
                                   << kind.bonded << ", pieces " << kind.pieces << ", friction " << kind.friction
                                   << (precision == Precision::mixed ? ", mixed" : "") << ", supports of " << share);
   auto settings = settings_of(Kernel::wendland_c2, precision, kind.stress, kind.stress);
@@ -97,13 +97,13 @@ void expect_antisymmetry(const Kind& kind, Precision precision) {
   std::size_t acting = 0;
   for (unsigned trial = 0; trial < 200; ++trial) {
     auto settings = settings_of(Kernel::wendland_c4, precision, kind.stress, kind.stress);
-    settings.tensor = kind.tensor;
+    settings.asph = kind.asph;
     std::vector<Field> more;
-    if (kind.tensor) more.push_back(Field::smoothing_metric);
+    if (kind.asph) more.push_back(Field::smoothing_metric);
     auto p = random_matter<Dim>(2, trial, kind.stress, 2, more);
-    if (kind.tensor) random_ellipsoids(p, 2, trial);
+    if (kind.asph) random_ellipsoids(p, 2, trial);
     for (std::size_t i = 0; i < 2; ++i) {
-      // Voluminous enough to touch across two pieces: about one and seven cubes of the spacing, one and nine squares.
+      // Voluminous enough for a contact of two pieces: about one and seven cubes of the spacing, one and nine squares.
       p.column(Field::mass)[i] = std::ldexp(1.0, (Dim == 3 ? -18 : -8) + (i == 0 ? 0 : 2));
       p.column(Field::density)[i] = std::ldexp(1.0, i == 0 ? 11 : 10);
     }
@@ -122,9 +122,9 @@ void expect_antisymmetry(const Kind& kind, Precision precision) {
 
 TEST(Conservation, TheForceOfAPairIsAntisymmetricBitForBit) {
   for (const Precision precision : {Precision::double_precision, Precision::mixed})
-    for (const Kind& kind : {Kind{.stress = false}, Kind{}, Kind{.tensor = true}, Kind{.pieces = true, .friction = 0.3},
-                             Kind{.tensor = true, .pieces = true, .friction = 0.3}}) {
-      SCOPED_TRACE(testing::Message() << "tensor " << kind.tensor << ", pieces " << kind.pieces << ", precision "
+    for (const Kind& kind : {Kind{.stress = false}, Kind{}, Kind{.asph = true}, Kind{.pieces = true, .friction = 0.3},
+                             Kind{.asph = true, .pieces = true, .friction = 0.3}}) {
+      SCOPED_TRACE(testing::Message() << "asph " << kind.asph << ", pieces " << kind.pieces << ", precision "
                                       << static_cast<int>(precision));
       expect_antisymmetry<2>(kind, precision);
       expect_antisymmetry<3>(kind, precision);

@@ -90,7 +90,7 @@ TEST(GradientCorrection, DoesNotJumpWhereItBeginsToFade) {
   EXPECT_FALSE(below.whole);
 }
 
-TEST(TouchingStress, WorkIsHeatAndNoTorqueIsLeft) {
+TEST(ContactStress, WorkIsHeatAndNoTorqueIsLeft) {
   Uniform uniform(6);
   for (const Mat<3>& own_moment : moments<3>()) {
     const Vec<3> normal = Vec<3>(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)).normalized();
@@ -99,27 +99,27 @@ TEST(TouchingStress, WorkIsHeatAndNoTorqueIsLeft) {
     const auto own = gradient_correction<3>(own_moment), all = gradient_correction<3>(all_moment);
     const Mat<3> R = random_matrix<3>(uniform) * own_moment, others = random_matrix<3>(uniform) * others_moment;
     const Mat<3> sigma = random_symmetric<3>(uniform) - 5 * Mat<3>::Identity();
-    const auto t = touching_stress<3>(sigma, normal, own, all);
-    const Mat<3> L = touching_gradient<3>(own.gradient(R), all.gradient(R + others), normal, true);
+    const auto t = contact_stress<3>(sigma, normal, own, all);
+    const Mat<3> L = contact_gradient<3>(own.gradient(R), all.gradient(R + others), normal, true);
     EXPECT_NEAR(sigma.cwiseProduct(L).sum(), t.own.cwiseProduct(R).sum() + t.others.cwiseProduct(others).sum(), 1e-11);
     const Mat<3> torque = t.own * own_moment.transpose() + t.others * others_moment.transpose();
     EXPECT_LT((torque - torque.transpose()).norm(), 1e-12);
-    const auto tension = touching_stress<3>(Mat<3>::Identity(), normal, own, all);
-    EXPECT_TRUE(tension.others.isZero(0)) << "what touches does not pull";
+    const auto tension = contact_stress<3>(Mat<3>::Identity(), normal, own, all);
+    EXPECT_TRUE(tension.others.isZero(0)) << "contact does not pull";
   }
 }
 
-TEST(TouchingStress, OpeningStrainsNothingThatIsNotPressed) {
+TEST(ContactStress, OpeningStrainsNothingThatIsNotPressed) {
   const Vec<2> normal(1, 0);
   Mat<2> opening = Mat<2>::Zero();
   opening(0, 0) = 3;
   const Mat<2> none = Mat<2>::Zero();
-  EXPECT_EQ(touching_gradient<2>(none, opening, normal, false), none);
-  EXPECT_EQ(touching_gradient<2>(none, opening, normal, true), opening);
-  EXPECT_EQ(touching_gradient<2>(none, Mat<2>(-opening), normal, false), Mat<2>(-opening));
+  EXPECT_EQ(contact_gradient<2>(none, opening, normal, false), none);
+  EXPECT_EQ(contact_gradient<2>(none, opening, normal, true), opening);
+  EXPECT_EQ(contact_gradient<2>(none, Mat<2>(-opening), normal, false), Mat<2>(-opening));
   Mat<2> sliding = none;
   sliding(1, 0) = 7;
-  EXPECT_EQ(touching_gradient<2>(none, sliding, normal, true), none) << "sliding does not shear";
+  EXPECT_EQ(contact_gradient<2>(none, sliding, normal, true), none) << "sliding does not shear";
 }
 
 /// A cloud whose supports are `share` of what a whole neighbourhood needs, moving as A x.

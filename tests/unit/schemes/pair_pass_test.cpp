@@ -298,7 +298,7 @@ double error_with_tensors(Kernel kernel, Precision precision, const Mat<Dim>& A,
     p.set_vector(Field::velocity, i, A * p.vector(Field::position, i));
   }
   auto settings = settings_of(kernel, precision, true, true);
-  settings.tensor = true;
+  settings.asph = true;
   run_rates(p, settings);
   const double edge = spacing * std::pow(static_cast<double>(p.size()), 1.0 / Dim);
   std::size_t interior = 0;

@@ -80,7 +80,7 @@ void split_in_two(Particles<Dim>& p, PairPassSettings& settings) {
   for (std::size_t i = 0; i < p.size(); ++i) p.label(Label::body)[i] = p.column(Field::position)[i] > 0;
   settings.rules.sizes = {spacing, spacing};
   settings.rules.pieces = {2, 3};
-  settings.touches = true;
+  settings.contacts = true;
 }
 
 /// Lists and a pass for the particles as they are; returns the lists.

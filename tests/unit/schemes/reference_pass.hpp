@@ -94,7 +94,7 @@ class Reference {
     const View& own = views_[i];
     const double rho = column(Field::density, i), c = column(Field::sound_speed, i),
                  h = column(Field::smoothing_length, i);
-    Mat<Dim> R = Mat<Dim>::Zero(), touched = R, uncut = R, uncut_moment = R;
+    Mat<Dim> R = Mat<Dim>::Zero(), others = R, uncut = R, uncut_moment = R;
     for (std::size_t j = 0; j < p_.size(); ++j) {
       const Pair q = pair(i, j);
       const View& other = views_[j];
@@ -110,11 +110,11 @@ class Reference {
       Vec<Dim> n = own.normal - other.normal;
       if (!q.own) {
         closing = n.squaredNorm() > 0.01 ? q.v.dot(n) * q.x.dot(n) / n.squaredNorm() : q.v.dot(q.x);
-        f = touching_pair(i, j) * std::min(1.0, 4 * std::min(c, c_j) / (c + c_j));
+        f = contact_of_pair(i, j) * std::min(1.0, 4 * std::min(c, c_j) / (c + c_j));
       }
       const double mean_h = 0.5 * (h + column(Field::smoothing_length, j));
-      const double mu = std::min(0.0, closing) * (settings_.tensor ? q.eta / (q.eta * q.eta + 0.01) / q.r
-                                                                   : mean_h / (q.r * q.r + 0.01 * mean_h * mean_h));
+      const double mu = std::min(0.0, closing) * (settings_.asph ? q.eta / (q.eta * q.eta + 0.01) / q.r
+                                                                 : mean_h / (q.r * q.r + 0.01 * mean_h * mean_h));
       const double mean_rho = 2 / (1 / rho + 1 / rho_j);
       const double viscosity =
           f * mean_rho * (-settings_.viscosity_alpha * 0.5 * (c + c_j) * mu + settings_.viscosity_beta * mu * mu);
@@ -150,12 +150,12 @@ class Reference {
       const Mat<Dim> add = gradient_weight * q.v * q.g.transpose(),
                      add_moment = gradient_weight * q.x * q.g.transpose();
       if (!q.own) {
-        touched += share(i, j) * add;
+        others += share(i, j) * add;
         continue;
       }
       R += add;
       double left = 1;
-      if (settings_.coupled) {
+      if (settings_.cracked) {
         const Vec<Dim> along = q.x.normalized();
         left -= std::max(along.dot(p_.symmetric(Field::damage_tensor, i) * along),
                          along.dot(p_.symmetric(Field::damage_tensor, j) * along));
@@ -165,8 +165,9 @@ class Reference {
     }
     const auto corrected = [](const Inverse<Dim>& k, const Mat<Dim>& raw) { return k.P * raw * k.Q.transpose(); };
     sums.gradient = corrected(inverse(own.moment, own.squares), R);
-    if (!own.touched.isZero(0)) {
-      const Mat<Dim> both = corrected(inverse(own.moment + own.touched, own.squares + own.touched_squares), R + touched);
+    if (!own.others.isZero(0)) {
+      const Mat<Dim> both =
+          corrected(inverse(own.moment + own.others, own.squares + own.squares_of_others), R + others);
       const double opening = own.normal.dot((both - sums.gradient) * own.normal);
       if (opening < 0 || !own.press.isZero(0)) sums.gradient += opening * own.normal * own.normal.transpose();
     }
@@ -180,10 +181,10 @@ class Reference {
  private:
   /// What partners see of a particle.
   struct View {
-    Mat<Dim> G, H, L, own, press = Mat<Dim>::Zero(), moment = Mat<Dim>::Zero(), touched = Mat<Dim>::Zero();
+    Mat<Dim> G, H, L, own, press = Mat<Dim>::Zero(), moment = Mat<Dim>::Zero(), others = Mat<Dim>::Zero();
     Vec<Dim> normal = Vec<Dim>::Zero();
-    double squares = 0, touched_squares = 0;
-    double V, r, Z, touching = 0;  ///< r: rho0/rho
+    double squares = 0, squares_of_others = 0;
+    double V, r, Z, contact = 0;  ///< r: rho0/rho
     int piece = 0;
   };
   struct Pair {
@@ -231,7 +232,7 @@ class Reference {
       View& view = views_[i];
       const double h = column(Field::smoothing_length, i);
       view.H = Mat<Dim>::Identity() / h;
-      if (settings_.tensor)
+      if (settings_.asph)
         view.H = Eigen::SelfAdjointEigenSolver<Mat<Dim>>(p_.symmetric(Field::smoothing_metric, i)).operatorSqrt();
       view.G = view.H * view.H;
       const Mat<Dim> L = strained() ? p_.tensor(Field::velocity_gradient, source(i)) : Mat<Dim>(Mat<Dim>::Zero());
@@ -243,10 +244,10 @@ class Reference {
       if (!pieces.empty()) view.piece = pieces[static_cast<std::size_t>(p_.label(Label::body)[i])];
       if (i < copies_.size() && copies_[i].behind_wall && view.piece != 0) view.piece = wall;
     }
-    for (std::size_t i = 0; settings_.touches && i < all; ++i)
+    for (std::size_t i = 0; settings_.contacts && i < all; ++i)
       if (source(i) == i) feel(i);
     from_sources([](View& view, const View& of, const Vec<Dim>& sign) {
-      view.touching = of.touching;
+      view.contact = of.contact;
       view.normal = sign.cwiseProduct(of.normal);
     });
     for (std::size_t i = 0; i < all; ++i) {
@@ -257,17 +258,17 @@ class Reference {
         if (q.own)
           view.moment += weight(i, j) * q.x * q.g.transpose();
         else
-          view.touched += share(i, j) * views_[j].V * q.x * q.g.transpose();
+          view.others += share(i, j) * views_[j].V * q.x * q.g.transpose();
         const Vec<Dim> scaled = (q.own ? weight(i, j) : share(i, j) * views_[j].V) * view.H.inverse() * q.g;
-        (q.own ? view.squares : view.touched_squares) += scaled.squaredNorm();
+        (q.own ? view.squares : view.squares_of_others) += scaled.squaredNorm();
       }
-      const Mat<Dim> sigma = stress_of(p_, intact, settings_.coupled, i);
+      const Mat<Dim> sigma = stress_of(p_, intact, settings_.cracked, i);
       const Inverse<Dim> own = inverse(view.moment, view.squares),
-                         both = inverse(view.moment + view.touched, view.squares + view.touched_squares);
+                         both = inverse(view.moment + view.others, view.squares + view.squares_of_others);
       const Vec<Dim>& n = view.normal;
       const Mat<Dim> passed = std::min(0.0, n.dot(sigma * n)) * n * n.transpose();
-      if (!view.touched.isZero(0)) view.press = both.P * passed * both.Q;
-      view.own = own.P * (view.touched.isZero(0) ? sigma : Mat<Dim>(sigma - passed)) * own.Q + view.press;
+      if (!view.others.isZero(0)) view.press = both.P * passed * both.Q;
+      view.own = own.P * (view.others.isZero(0) ? sigma : Mat<Dim>(sigma - passed)) * own.Q + view.press;
     }
     from_sources([](View& view, const View& of, const Vec<Dim>& sign) {
       view.own = sign.asDiagonal() * of.own * sign.asDiagonal();
@@ -297,7 +298,7 @@ class Reference {
     const double size = settings_.rules.sizes[static_cast<std::size_t>(p_.label(Label::body)[i])];
     const HalfSpace half_space = with_kernel(settings_.kernel, [](auto kernel) { return HalfSpace(kernel, Dim); });
     const double half_size_away = half_space(0.5 * size / column(Field::smoothing_length, i));
-    views_[i].touching = std::clamp((occupied / half_size_away - 1) / 0.02, 0.0, 1.0);
+    views_[i].contact = std::clamp((occupied / half_size_away - 1) / 0.02, 0.0, 1.0);
     views_[i].normal = outward.normalized();
   }
   bool strained() const { return p_.has(Field::velocity_gradient) && p_.has(Field::shock_switch); }
@@ -317,10 +318,10 @@ class Reference {
     const double volumes = std::clamp((differ / settings_.alike - 1) / 3, 0.0, 1.0);
     return views_[j].V / views_[j].r * views_[i].r * (1 + volumes * (ratio - 1));
   }
-  double touching_pair(std::size_t i, std::size_t j) const { return std::max(views_[i].touching, views_[j].touching); }
+  double contact_of_pair(std::size_t i, std::size_t j) const { return std::max(views_[i].contact, views_[j].contact); }
   /// Share of i in a contact with j: the softer of two decides.
   double share(std::size_t i, std::size_t j) const {
-    return touching_pair(i, j) * 2 * views_[j].Z / (views_[i].Z + views_[j].Z);
+    return contact_of_pair(i, j) * 2 * views_[j].Z / (views_[i].Z + views_[j].Z);
   }
 
   const Particles<Dim>& p_;

@@ -35,19 +35,19 @@ Particles<Dim> tensor_matter(std::size_t n, unsigned seed, bool stress, bool cra
   return p;
 }
 
-PairPassSettings tensor_settings(Kernel kernel, Precision precision, bool stress, bool coupled) {
+PairPassSettings tensor_settings(Kernel kernel, Precision precision, bool stress, bool cracked) {
   PairPassSettings s = settings_of(kernel, precision, stress, stress);
-  s.tensor = true;
-  s.coupled = coupled;
-  if (coupled) s.rules.cut_by_cracks = {1, 1};
+  s.asph = true;
+  s.cracked = cracked;
+  if (cracked) s.rules.cut_by_cracks = {1, 1};
   return s;
 }
 
 template <int Dim>
 void expect_formulas(std::size_t n, const PairPassSettings& settings) {
   SCOPED_TRACE(testing::Message() << Dim << "D, kernel " << static_cast<int>(settings.kernel) << ", precision "
-                                  << static_cast<int>(settings.precision) << ", coupled " << settings.coupled);
-  auto p = tensor_matter<Dim>(n, 41, settings.stress, settings.coupled);
+                                  << static_cast<int>(settings.precision) << ", cracked " << settings.cracked);
+  auto p = tensor_matter<Dim>(n, 41, settings.stress, settings.cracked);
   sort_in_space(p, cluster_size(settings.precision));
   const Reference<Dim> reference(p, settings);
   run_rates(p, settings);
@@ -59,13 +59,13 @@ void expect_formulas(std::size_t n, const PairPassSettings& settings) {
     EXPECT_NEAR(p.column(Field::neighbour_sum)[i] / sums.moment, 1, tolerance);
     EXPECT_NEAR(p.column(Field::approach_speed)[i], sums.approach, 10 * tolerance * std::max(sums.approach, 1.0));
     EXPECT_LT((velocity_gradient_of(p, i) - sums.gradient).norm(), 10 * tolerance * sums.gradient_scale);
-    if (!settings.coupled) continue;
+    if (!settings.cracked) continue;
     EXPECT_LT((p.tensor(Field::coupled_gradient, i) - sums.coupled_gradient).norm(),
               10 * tolerance * sums.gradient_scale);
   }
 }
 
-TEST(TensorPass, RatesAreTheFormulas) {
+TEST(AnisotropicPass, RatesAreTheFormulas) {
   for (const Kernel kernel : {Kernel::cubic_spline, Kernel::quintic_spline, Kernel::wendland_c2, Kernel::wendland_c4})
     for (const Precision precision : {Precision::double_precision, Precision::mixed}) {
       expect_formulas<2>(150, tensor_settings(kernel, precision, true, false));
@@ -74,7 +74,7 @@ TEST(TensorPass, RatesAreTheFormulas) {
   expect_formulas<3>(150, tensor_settings(Kernel::wendland_c2, Precision::double_precision, false, false));
 }
 
-TEST(TensorPass, RatesAreTheFormulasWithCracks) {
+TEST(AnisotropicPass, RatesAreTheFormulasWithCracks) {
   for (const Precision precision : {Precision::double_precision, Precision::mixed})
     for (const bool corrected : {false, true}) {
       auto settings = tensor_settings(Kernel::wendland_c2, precision, true, true);
@@ -84,13 +84,13 @@ TEST(TensorPass, RatesAreTheFormulasWithCracks) {
     }
 }
 
-TEST(TensorPass, RoundEllipsoidsGiveWhatSmoothingLengthsGive) {
+TEST(AnisotropicPass, RoundEllipsoidsGiveWhatSmoothingLengthsGive) {
   auto p = tensor_matter<3>(300, 42, true, false);
   for (std::size_t i = 0; i < p.size(); ++i)
     p.set_symmetric(Field::smoothing_metric, i, round_metric<3>(p.column(Field::smoothing_length)[i]));
   auto q = random_matter<3>(300, 42, true);
   auto tensor = tensor_settings(Kernel::wendland_c4, Precision::double_precision, true, false), plain = tensor;
-  plain.tensor = false;
+  plain.asph = false;
   // The viscosities differ where h_i != h_j: one takes the mean of h, the other that of r/h.
   tensor.viscosity_alpha = tensor.viscosity_beta = plain.viscosity_alpha = plain.viscosity_beta = 0;
   run_rates(p, tensor);
@@ -102,7 +102,7 @@ TEST(TensorPass, RoundEllipsoidsGiveWhatSmoothingLengthsGive) {
   }
 }
 
-TEST(TensorPass, DensityIsTheSumOverTheMassesInTheEllipsoid) {
+TEST(AnisotropicPass, DensityIsTheSumOverTheMassesInTheEllipsoid) {
   auto p = tensor_matter<3>(200, 44, false, false);
   const auto settings = tensor_settings(Kernel::wendland_c2, Precision::double_precision, false, false);
   PairLists<3> lists;
@@ -114,7 +114,7 @@ TEST(TensorPass, DensityIsTheSumOverTheMassesInTheEllipsoid) {
     EXPECT_NEAR(p.column(Field::density)[i] / reference.rates(i).density, 1, 1e-12);
 }
 
-TEST(TensorPass, EveryThreadCountGivesTheSameBits) {
+TEST(AnisotropicPass, EveryThreadCountGivesTheSameBits) {
   const auto settings = tensor_settings(Kernel::wendland_c4, Precision::mixed, true, true);
   std::vector<Particles<2>> results;
   for_thread_counts([&](int) {

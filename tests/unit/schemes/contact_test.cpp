@@ -12,10 +12,10 @@ PairPassSettings solid_settings(Precision precision = Precision::double_precisio
 template <int Dim>
 void expect_formulas(PairPassSettings settings, double h_share) {
   std::vector<Field> more;
-  if (settings.tensor) more.push_back(Field::smoothing_metric);
+  if (settings.asph) more.push_back(Field::smoothing_metric);
   auto p = random_matter<Dim>(300, 51, true, 1.5, more);
   for (double& h : p.column(Field::smoothing_length)) h *= h_share;
-  if (settings.tensor) random_ellipsoids(p, 3, 52);
+  if (settings.asph) random_ellipsoids(p, 3, 52);
   split_in_two(p, settings);
   sort_in_space(p, cluster_size(settings.precision));
   const Reference<Dim> reference(p, settings);
@@ -33,15 +33,15 @@ void expect_formulas(PairPassSettings settings, double h_share) {
   EXPECT_GT(pressed, 10u);
 }
 
-TEST(Touching, RatesAreTheFormulas) {
+TEST(Contact, RatesAreTheFormulas) {
   for (const Precision precision : {Precision::double_precision, Precision::mixed})
-    for (const bool tensor : {false, true})
+    for (const bool asph : {false, true})
       for (const double friction : {0.0, 0.5})
         for (const double share : {1.0, 0.5}) {
           auto settings = solid_settings(precision);
-          settings.tensor = tensor;
+          settings.asph = asph;
           settings.friction = friction;
-          SCOPED_TRACE(testing::Message() << "tensor " << tensor << ", friction " << friction << ", precision "
+          SCOPED_TRACE(testing::Message() << "asph " << asph << ", friction " << friction << ", precision "
                                           << static_cast<int>(precision) << ", supports of " << share);
           expect_formulas<2>(settings, share);
           expect_formulas<3>(settings, share);
@@ -49,7 +49,7 @@ TEST(Touching, RatesAreTheFormulas) {
 }
 
 /// Else a run that is restarted, and makes its lists anew, would go another way.
-TEST(Touching, NoBitDependsOnHowFarTheListsReach) {
+TEST(Contact, NoBitDependsOnHowFarTheListsReach) {
   for (const Precision precision : {Precision::double_precision, Precision::mixed}) {
     auto settings = solid_settings(precision);
     settings.friction = 0.3;
@@ -69,20 +69,20 @@ TEST(Touching, NoBitDependsOnHowFarTheListsReach) {
   }
 }
 
-TEST(Touching, APairOfTwoPiecesNeverPulls) {
+TEST(Contact, APairOfTwoPiecesNeverPulls) {
   Uniform uniform(53);
   std::size_t pushed = 0, let_go = 0;
   for (unsigned trial = 0; trial < 1000; ++trial) {
     auto settings = solid_settings();
-    settings.tensor = trial % 2;
+    settings.asph = trial % 2;
     std::vector<Field> more;
-    if (settings.tensor) more.push_back(Field::smoothing_metric);
+    if (settings.asph) more.push_back(Field::smoothing_metric);
     auto p = random_matter<3>(2, trial, true, 2, more);
-    if (settings.tensor) random_ellipsoids(p, 2, trial);
+    if (settings.asph) random_ellipsoids(p, 2, trial);
     split_in_two(p, settings);
     for (std::size_t i = 0; i < 2; ++i) {
       p.label(Label::body)[i] = static_cast<std::int32_t>(i);
-      p.column(Field::density)[i] *= 0.2;  // voluminous enough to touch at all
+      p.column(Field::density)[i] *= 0.2;  // voluminous enough for a contact at all
       p.column(Field::pressure)[i] = uniform(-1e9, 1e9);
     }
     run_rates(p, settings);
@@ -94,7 +94,7 @@ TEST(Touching, APairOfTwoPiecesNeverPulls) {
   EXPECT_GT(let_go, 100u);
 }
 
-constexpr double overlap = 0.05 * spacing;  ///< presses the faces well into touch
+constexpr double overlap = 0.05 * spacing;  ///< presses the faces well into contact
 
 /// Two layers of a square lattice, 8 thick and without end along y, face to face near x = 0 with `gap` between their
 /// surfaces, at rest under the pressures given. Body 0 is to the left.
@@ -126,7 +126,7 @@ PairPassSettings layer_settings() {
   settings.rules.boundary.kind[1] = BoundaryKind::periodic;
   settings.rules.boundary.min = {-1, -6 * spacing, 0};
   settings.rules.boundary.max = {1, 6 * spacing, 0};
-  settings.touches = true;
+  settings.contacts = true;
   return settings;
 }
 Vec<2> force_on_left(const Particles<2>& p) {
@@ -137,7 +137,7 @@ Vec<2> force_on_left(const Particles<2>& p) {
 }
 constexpr double face = 12 * spacing;  // per metre of depth
 
-TEST(Touching, PressedBodiesPushWithTheirPressureAndStretchedOnesLetGo) {
+TEST(Contact, PressedBodiesPushWithTheirPressureAndStretchedOnesLetGo) {
   auto pressed = layers(1e9, 1e9), stretched = layers(-1e9, -1e9), apart = layers(1e9, 1e9, 0.2 * spacing);
   for (auto* p : {&pressed, &stretched, &apart}) run_rates(*p, layer_settings());
   EXPECT_NEAR(force_on_left(pressed)[0] / (-1e9 * face), 1, 0.1);
@@ -151,7 +151,7 @@ TEST(Touching, PressedBodiesPushWithTheirPressureAndStretchedOnesLetGo) {
   EXPECT_NEAR(force_on_left(held)[0] / (1e9 * face), 1, 0.1);
 }
 
-TEST(Touching, SlidingBodiesAreNeitherBrakedNorShearedWithoutFriction) {
+TEST(Contact, SlidingBodiesAreNeitherBrakedNorShearedWithoutFriction) {
   const auto slide = [](double friction, double speed) {
     auto p = layers(1e9, 1e9);
     for (std::size_t i = 0; i < p.size(); ++i)
@@ -185,7 +185,7 @@ TEST(Touching, SlidingBodiesAreNeitherBrakedNorShearedWithoutFriction) {
   EXPECT_LT(slow[1], 1e-3 * 0.3 * -slow[0]);
 }
 
-TEST(Touching, TheSofterSideDecidesTheStressOfTheContact) {
+TEST(Contact, TheSofterSideDecidesTheStressOfTheContact) {
   // A solid of impedance 4e6 against a gas of 600.
   const auto force = [](double solid, double gas) {
     auto p = layers(solid, gas);
@@ -203,7 +203,7 @@ TEST(Touching, TheSofterSideDecidesTheStressOfTheContact) {
   EXPECT_NEAR((force(2e6, 1e6) - even) / even, 0, 1e-3) << "what the solid has too much is not";
 }
 
-TEST(Touching, AWallHoldsWhatPressesAndASymmetryPlaneAlsoWhatPulls) {
+TEST(Contact, AWallHoldsWhatPressesAndASymmetryPlaneAlsoWhatPulls) {
   const auto force = [](BoundaryKind kind, double pressure) {
     auto p = layers(pressure, pressure, 0);
     auto settings = layer_settings();

@@ -1,0 +1,137 @@
+#pragma once
+/// The pass over the pairs that gives rates.
+#include "schemes/pair_pass_impl.hpp"
+
+namespace ejecta {
+
+template <class T, int Dim, PassKind Kind, class K, class Flux>
+template <bool Contacts>
+void PairPassOf<T, Dim, Kind, K, Flux>::cluster_rates(const RateColumns<Dim>& columns, const Cluster& c,
+                                                      Candidates candidates) const {
+  const Members members(c, records_.data());
+  const auto load = members.loader();
+  const Support support{load};
+  V v[Dim], stress[R::stresses];
+  for (int a = 0; a < Dim; ++a) v[a] = load(R::v + a);
+  for (int s = 0; s < R::stresses; ++s) stress[s] = load(R::stress + s);
+  [[maybe_unused]] V damage[symmetric_size<Dim>];
+  if constexpr (Kind.cracked) {
+    for (int s = 0; s < symmetric_size<Dim>; ++s) damage[s] = load(R::damage + s);
+  }
+  const FluxLanes flux(load, settings_);
+  const V expansion = load(R::expansion), compression = load(R::compression);
+  const Alike alike(settings_.alike, expansion, compression);
+  [[maybe_unused]] const auto contact = contact_of<Contacts>(members);
+
+  constexpr bool along_gradient = !Kind.stress || (!Kind.asph && !Kind.bonded);  // the flux acts along it
+  RateSums sums;
+  const auto forces = [&](const Partner& p) __attribute__((always_inline)) {
+    const T* j = p.record;
+    const T volume = j[R::volume];
+    V dv[Dim], kernel_gradient[Dim], force[Dim];
+    for (int a = 0; a < Dim; ++a) dv[a] = j[R::v + a] - v[a];
+    p.kernel_gradient(kernel_gradient);
+    const V along = pair_detail::dot(dv, p.dx), central = p.central();
+    Jump<V> jump = flux.jump(p.dx, along, j);
+    [[maybe_unused]] V own{}, uneven[Dim];  // uneven: what the stress of i gives more than that of j
+    if constexpr (Contacts)
+      if (p.foreign) {
+        own = members.own(p);
+        jump.closing = own > T(0) ? jump.closing : contact.closing(p, dv, along);
+        jump.share = own > T(0) ? jump.share : V(contact.weight(p, own) * contact.softness(p));
+      }
+    const auto exchange = flux.between(support, p, jump.closing, V(jump.share * (expansion * j[R::expansion])));
+    // With corrected gradients no torque is left but that of a flux off the pair's axis. Elsewhere that of smoothing
+    // tensors follows their gradient: across shocks it is the better one.
+    const V pressure = along_gradient ? exchange.pressure : V{};
+    // In single precision always: both sides of a pair must round alike, whatever else is in their clusters.
+    if (R::split || (Contacts && p.foreign) || !alike.with(j)) {
+      const Shares shares(alike.limit, expansion, compression, j[R::expansion], j[R::compression]);
+      V ours[R::stresses], theirs[R::stresses];
+      for (int s = 0; s < R::stresses; ++s) {
+        ours[s] = shares.own * stress[s];
+        theirs[s] = shares.other * j[R::stress + s];
+      }
+      if constexpr (Contacts)
+        if (p.foreign) {
+          V own_share, other_share;
+          contact.shares(p, own, own_share, other_share);
+          for (int s = 0; s < R::stresses; ++s) {
+            ours[s] = own > T(0) ? ours[s] : V(own_share * contact.press[s]);
+            theirs[s] = own > T(0) ? theirs[s] : V(other_share * p.contact[R::press + s]);
+          }
+        }
+      // Rounded before the sum, as in the kernels: seen from j it must be the same number.
+      for (int s = 0; s < R::stresses; ++s) {
+        ours[s] = simd::rounded(ours[s]);
+        theirs[s] = simd::rounded(theirs[s]);
+      }
+      pair_detail::contract<Kind.stress, Dim>(ours, theirs, pressure, kernel_gradient, force);
+      if constexpr (R::split)
+        pair_detail::contract<Kind.stress, Dim, -1>(ours, theirs, pressure, kernel_gradient, uneven);
+    } else {
+      pair_detail::contract<Kind.stress, Dim>(stress, j + R::stress, pressure, kernel_gradient, force);
+    }
+    if constexpr (!along_gradient)
+      for (int a = 0; a < Dim; ++a) force[a] -= exchange.pressure * (central * p.dx[a]);
+    if constexpr (Contacts)
+      if (p.foreign && contact.friction > 0)
+        sums.friction_heat.add(
+            volume,
+            contact.rub(p, dv, own, force, V((expansion * j[R::expansion]) * (central * simd::square_root(p.r2)))));
+    if constexpr (R::split) {
+      // Half of the work of the very force that acts on the velocity of j (on v it follows from the sum of forces), and
+      // what the two stresses differ by. The work of both sides is then the same in double precision, and what they
+      // differ by the negative: no rounding of dv comes between work and heat.
+      for (int a = 0; a < Dim; ++a)
+        sums.heat.add(static_cast<double>(volume) * static_cast<double>(j[R::v + a]), force[a]);
+      sums.heat.add(volume, pair_detail::dot(uneven, dv));
+    } else {
+      sums.heat.add(-volume,
+                    exchange.pressure * (Kind.stress ? V(central * along) : pair_detail::dot(dv, kernel_gradient)));
+    }
+    if constexpr (Flux::uneven) sums.heat.add(volume, exchange.uneven);
+    for (int a = 0; a < Dim; ++a) sums.acceleration[a].add(volume, force[a]);
+    sums.fastest = simd::min(sums.fastest, V(p.pair.moment > 0 ? exchange.approach : V{}));
+  };
+  const auto gradients = [&](const Partner& p) __attribute__((always_inline)) {
+    const T* j = p.record;
+    V dv[Dim], kernel_gradient[Dim], weight = simd::all<V>(j[R::volume]);
+    for (int a = 0; a < Dim; ++a) dv[a] = j[R::v + a] - v[a];
+    if (!alike.with(j)) weight *= Shares(alike.limit, expansion, compression, j[R::expansion], j[R::compression]).own;
+    p.kernel_gradient(kernel_gradient);
+    if constexpr (Kind.gradient) {
+      V weighted[Dim];
+      for (int b = 0; b < Dim; ++b) weighted[b] = weight * kernel_gradient[b];
+      if constexpr (Contacts)
+        if (p.foreign) {
+          const V own = members.own(p);
+          V others[Dim], own_share, other_share;
+          contact.shares(p, own, own_share, other_share);
+          for (int b = 0; b < Dim; ++b) {
+            others[b] = own_share * (j[R::volume] * kernel_gradient[b]);
+            weighted[b] *= own;
+          }
+          sums.contact_gradient.add(dv, others);
+        }
+      sums.gradient.add(dv, weighted);
+      if constexpr (Kind.cracked) {
+        V image[Dim], across = simd::max(quadratic_form<Dim>(damage, p.dx, image),
+                                         quadratic_form<Dim>(j + R::damage, p.dx, image));
+        if (simd::any_less(V{}, across)) {  // most matter has no cracks
+          across = simd::min(V(across * simd::reciprocal(V(p.r2 + support_detail::guard<T>))), V{} + T(1));
+          for (int b = 0; b < Dim; ++b) weighted[b] *= across;
+          sums.cut.add(dv, weighted);
+          sums.cut_moment.add(p.dx, weighted);
+        }
+      }
+    } else {
+      sums.divergence += weight * pair_detail::dot(dv, kernel_gradient);
+    }
+  };
+  for_partners<Contacts>(
+      members, support, candidates, R::size, [&](const auto& pair) { sums.moment += pair.moment; }, forces, gradients);
+  close<Contacts>(columns, c, sums, v, stress, contact);
+}
+
+}  // namespace ejecta
