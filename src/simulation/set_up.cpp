@@ -1,10 +1,13 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/errors.hpp"
 #include "base/parallel.hpp"
 #include "particles/smoothing_metric.hpp"
+#include "scene/units.hpp"
 #include "schemes/kernels.hpp"
 #include "schemes/pair_records.hpp"
 #include "simulation/pieces.hpp"
@@ -25,6 +28,25 @@ std::vector<int> number_materials(const Scene& scene, const std::vector<Material
     numbers.push_back(m);
   }
   return numbers;
+}
+
+/// A particle meets each other one once in a periodic box, and itself not at all, only if the box is wider than the
+/// kernel reaches; images are made one box length away and no further.
+void check_periodic_width(const Scene& scene) {
+  constexpr std::array axes{"x", "y", "z"};
+  double spacing = 0;
+  for (const Body& body : scene.bodies) spacing = std::max(spacing, scene.spacing * body.spacing_factor);
+  const double reach = kernel_support(scene.numerics.kernel) * scene.numerics.nodes_per_h * spacing;
+  std::vector<std::string> problems;
+  for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dimension); ++a) {
+    const double width = scene.boundary.max[a] - scene.boundary.min[a];
+    if (scene.boundary.kind[a] == BoundaryKind::periodic && width < reach)
+      problems.push_back(
+          fmt::format("{}: boundary.{}: expected a periodic box wider than the kernel reaches at the "
+                      "start, {}, got {}",
+                      scene.file, axes[a], format_quantity(reach, "m"), format_quantity(width, "m")));
+  }
+  if (!problems.empty()) throw InputError(problems);
 }
 
 /// Puts the formulas of the bodies in place of their uniform values.
@@ -130,6 +152,7 @@ void plant(Simulation<Dim>& sim, const std::vector<Seedling<Dim>>& seedlings) {
 
 template <int Dim>
 std::unique_ptr<Simulation<Dim>> set_up(const Scene& scene, const std::vector<Material>& materials) {
+  check_periodic_width(scene);
   auto sim = std::make_unique<Simulation<Dim>>();
   sim->scene = scene;
   sim->materials = materials;
