@@ -43,6 +43,7 @@ const std::vector<std::int32_t>& Checkpoint::label(const std::string& name) cons
 double Checkpoint::scalar(const std::string& name) const { return found(scalars, name, *this); }
 
 void write_checkpoint(const fs::path& file, const CheckpointView& view) {
+  const PartGuard guard(file);
   {
     Hdf5File out(part_name(file), Hdf5File::Mode::create);
     out.write_attribute("format", format_version);
@@ -53,7 +54,7 @@ void write_checkpoint(const fs::path& file, const CheckpointView& view) {
     for (const auto& [name, value] : view.scalars) out.write("/scalars/" + name, "SI", std::span(&value, 1));
     for (const auto& column : view.columns) out.write("/columns/" + column.name, column.unit, column.values);
     for (const auto& label : view.labels) out.write("/labels/" + label.name, label.unit, label.values);
-    out.flush();
+    out.close();
   }
   move_into_place(file);
 }

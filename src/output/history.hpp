@@ -39,7 +39,7 @@ class History {
  public:
   /// Nothing is written before the first row. After a restart rows later than `resume_at` [s] of the file are dropped.
   History(std::filesystem::path file, int dimension, std::optional<double> resume_at = {});
-  /// Throws InputError if the file cannot be written.
+  /// Throws OutputError if the file cannot be written.
   void write(const HistoryRow& row);
 
  private:
@@ -55,7 +55,7 @@ struct TimerRow {
   double seconds = 0;
   std::int64_t calls = 0;
 };
-/// Columns: name, seconds, calls, share of all seconds listed. Throws InputError if the file cannot be written.
+/// Columns: name, seconds, calls, share of all seconds listed. Throws OutputError if the file cannot be written.
 void write_timers(const std::filesystem::path& file, std::span<const TimerRow> timers);
 
 }  // namespace ejecta
