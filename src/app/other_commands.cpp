@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <chrono>
+
+#include "app/job.hpp"
 #include "app/log.hpp"
 #include "app/options.hpp"
 #include "app/resources.hpp"
@@ -7,13 +10,16 @@
 #include "commit.hpp"
 #include "material/material_reader.hpp"
 #include "render/movie.hpp"
-#include "scene/scene_reader.hpp"
 #include "scene/units.hpp"
 #include "simulation/stages.hpp"
 
 namespace ejecta {
 
 namespace {
+
+/// A set-up of more than these is worth a word before.
+constexpr double many_particles = 1e6;
+constexpr double steps_of_a_set_up = 5;
 
 std::string names(const std::vector<Field>& fields) {
   std::string text;
@@ -40,17 +46,26 @@ void print_stages(const Scene& scene, const std::vector<Material>& materials) {
 std::string material_library() { return EJECTA_LIBRARY; }
 
 int check_command(const std::string& scene_file, const std::vector<std::string>& overrides) {
-  const Scene scene = read_scene(scene_file, overrides);
-  const Materials materials = read_materials(scene, material_library());
-  check_memory(scene, materials.list);
+  const Job job = read_job(scene_file, overrides);
+  const Scene& scene = job.scene;
+  const Materials& materials = job.materials;
+  const Estimate e = estimate(scene, materials.list);
+  if (e.particles > many_particles)
+    spdlog::info("setting up {:.3g} particles as a run does: as long as a few steps, about {}", e.particles,
+                 format_quantity(steps_of_a_set_up * e.seconds / e.steps, "s"));
+  const auto start = std::chrono::steady_clock::now();
+  const std::size_t particles = scene.dimension == 2 ? set_up<2>(scene, materials.list)->particles.size()
+                                                     : set_up<3>(scene, materials.list)->particles.size();
+  const std::chrono::duration<double> set_up_time = std::chrono::steady_clock::now() - start;
   if (scene.dimension == 2) {
     print_stages<2>(scene, materials.list);
   } else {
     print_stages<3>(scene, materials.list);
   }
-  const Estimate e = estimate(scene, materials.list);
+  fmt::print("set-up\n");
+  fmt::print("  particles          {}\n", particles);
+  fmt::print("  time               {}\n", format_quantity(set_up_time.count(), "s"));
   fmt::print("estimate\n");
-  fmt::print("  particles          {:.0f}\n", e.particles);
   fmt::print("  memory             {:.0f} bytes a particle, {:.3g} GB in all\n", e.bytes_per_particle,
              e.particles * e.bytes_per_particle / 1e9);
   fmt::print("  steps              {:.0f}, while nothing moves faster than sound at rest\n", e.steps);

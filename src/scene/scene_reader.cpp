@@ -6,6 +6,7 @@
 
 #include "base/errors.hpp"
 #include "scene/describe.hpp"
+#include "scene/units.hpp"
 
 namespace ejecta {
 
@@ -43,7 +44,32 @@ void find_pipelines(Scene& scene, const Document& document, Problems& problems) 
   }
 }
 
-Scene interpret(Document document, const std::vector<std::string>& overrides) {
+/// The numbers of a colour range stand in SI; texts carry a unit, which must be one of the field.
+void check_ranges(const Document& document, const FieldUnits& fields, Problems& problems) {
+  std::vector<std::string> names;
+  for (const auto& [name, unit] : fields) names.push_back(name);
+  for (const std::string& name : document.children("insitu.ranges")) {
+    const std::string path = "insitu.ranges." + name;
+    const auto field = fields.find(name);
+    if (field == fields.end()) {
+      const std::string near = nearest_word(name, names);
+      problems.add(document.origin(path), path,
+                   near.empty() ? "no such field" : "no such field, did you mean " + near + "?");
+      continue;
+    }
+    const auto item = document.items.find(path);
+    const auto* list = item == document.items.end() ? nullptr : std::get_if<LiteralList>(&item->second.literal.value);
+    if (!list || problems.has(path)) continue;
+    try {
+      for (const Literal& bound : *list)
+        if (const auto* text = std::get_if<std::string>(&bound.value)) parse_quantity(*text, field->second);
+    } catch (const InputError& error) {
+      problems.add(item->second.origin, path, error.what());
+    }
+  }
+}
+
+Scene interpret(Document document, const std::vector<std::string>& overrides, const FieldUnits& fields) {
   Problems problems;
   for (const std::string& assignment : overrides) {
     try {
@@ -65,6 +91,7 @@ Scene interpret(Document document, const std::vector<std::string>& overrides) {
   Describer description;
   describe(description, scene);
   read_settings(description, document, problems);
+  if (!fields.empty()) check_ranges(document, fields, problems);
   for (std::size_t k = 0; k < scene.bodies.size(); ++k)
     scene.bodies[k].origin = document.origin(fmt::format("bodies[{}]", k)).text;
   find_pipelines(scene, document, problems);
@@ -75,12 +102,13 @@ Scene interpret(Document document, const std::vector<std::string>& overrides) {
 
 }  // namespace
 
-Scene read_scene(const std::string& path, const std::vector<std::string>& overrides) {
-  return interpret(read_document(path), overrides);
+Scene read_scene(const std::string& path, const std::vector<std::string>& overrides, const FieldUnits& fields) {
+  return interpret(read_document(path), overrides, fields);
 }
 
-Scene parse_scene(const std::string& text, const std::string& name, const std::vector<std::string>& overrides) {
-  return interpret(parse_document(text, name), overrides);
+Scene parse_scene(const std::string& text, const std::string& name, const std::vector<std::string>& overrides,
+                  const FieldUnits& fields) {
+  return interpret(parse_document(text, name), overrides, fields);
 }
 
 std::string scene_toml(const Scene& scene) {

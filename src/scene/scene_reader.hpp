@@ -1,5 +1,6 @@
 #pragma once
 /// Scene files in, checked settings out.
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,13 +10,18 @@
 
 namespace ejecta {
 
+/// Name -> SI unit of the fields that insitu.ranges may name.
+using FieldUnits = std::map<std::string, std::string>;
+
 /// Reads a scene and applies overrides such as "time.end=20us" (what --set was given). Throws InputError with
 /// everything that is wrong: unknown keys, types, units, ranges, and values that do not go together. Pipelines come
-/// back as paths that exist.
-Scene read_scene(const std::string& path, const std::vector<std::string>& overrides = {});
+/// back as paths that exist. Without `fields` any name and unit does for a colour range.
+Scene read_scene(const std::string& path, const std::vector<std::string>& overrides = {},
+                 const FieldUnits& fields = {});
 
 /// The same from text; `name` stands for the path.
-Scene parse_scene(const std::string& text, const std::string& name, const std::vector<std::string>& overrides = {});
+Scene parse_scene(const std::string& text, const std::string& name, const std::vector<std::string>& overrides = {},
+                  const FieldUnits& fields = {});
 
 /// Adds a problem for every pair of values that do not go together. `document` tells where they were written.
 void check_scene(const Scene& scene, const Document& document, Problems& problems);
