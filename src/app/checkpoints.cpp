@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 
 #include "base/errors.hpp"
 
@@ -11,11 +12,32 @@ namespace ejecta {
 
 namespace {
 
+/// A young run is worth a checkpoint sooner: the time between them doubles from this share of the interval on, so that
+/// a crash costs little more than half of the run, and never more than the interval.
+constexpr double first_wait = 0.1;
+
 std::string column_name(const FieldInfo& f, int dim, int component) {
   return components(f.shape, dim) == 1 ? std::string(f.name) : fmt::format("{}_{}", f.name, component);
 }
 const std::pair<Label, const char*> labels[] = {
     {Label::id, "id"}, {Label::body, "body"}, {Label::material, "material"}};
+
+/// Whether a restart may give the key another value: nothing that the particles have been through depends on it.
+bool may_change(const std::string& key) {
+  for (const char* free : {"scene.title", "time.end", "time.max_steps", "run.threads"})
+    if (key == free) return true;
+  // Peaks not followed from the start would be wrong.
+  return key.starts_with("insitu.") || (key.starts_with("output.") && key != "output.peaks");
+}
+
+/// bodies[1].velocity -> bodies.projectile.velocity
+std::string with_name_of_body(const std::string& key, const Document& scene) {
+  if (!key.starts_with("bodies[")) return key;
+  const std::size_t end = key.find(']') + 1;
+  const auto name = scene.items.find(key.substr(0, end) + ".name");
+  return name == scene.items.end() ? key
+                                   : "bodies." + std::get<std::string>(name->second.literal.value) + key.substr(end);
+}
 
 }  // namespace
 
@@ -61,6 +83,24 @@ CheckpointView checkpoint_view(const Simulation<Dim>& sim, const std::string& re
   return view;
 }
 
+void check_same_scene(const Checkpoint& checkpoint, const std::string& resolved, const std::string& file) {
+  const Document then = parse_document(checkpoint.scene, checkpoint.file.string()),
+                 now = parse_document(resolved, file);
+  std::set<std::string> keys;
+  for (const Document* document : {&then, &now})
+    for (const auto& [key, item] : document->items) keys.insert(key);
+  const auto value = [](const Document& document, const std::string& key) {
+    const auto item = document.items.find(key);
+    return item == document.items.end() ? std::string("no value") : to_text(item->second.literal);
+  };
+  std::vector<std::string> problems;
+  for (const std::string& key : keys)
+    if (const std::string old = value(then, key), given = value(now, key); old != given && !may_change(key))
+      problems.push_back(fmt::format("{}: {}: expected {} as in the checkpoint {}, got {}", file,
+                                     with_name_of_body(key, now), old, checkpoint.file.filename().string(), given));
+  if (!problems.empty()) throw InputError(problems);
+}
+
 template <int Dim>
 void restore(Simulation<Dim>& sim, const Checkpoint& c) {
   Particles<Dim>& p = sim.particles;
@@ -99,6 +139,13 @@ void restore(Simulation<Dim>& sim, const Checkpoint& c) {
 }
 
 template <int Dim>
+void Checkpoints<Dim>::write_failed(const Simulation<Dim>& sim) const {
+  std::filesystem::create_directories(folder_ / "checkpoints");
+  write_checkpoint(folder_ / fmt::format("checkpoints/failed_{:06d}.h5", sim.clock.step),
+                   checkpoint_view(sim, resolved_));
+}
+
+template <int Dim>
 double Checkpoints<Dim>::dump_bytes(const Simulation<Dim>& sim) {
   const CheckpointView view = checkpoint_view(sim, "");
   return static_cast<double>(sim.particles.size()) *
@@ -106,30 +153,39 @@ double Checkpoints<Dim>::dump_bytes(const Simulation<Dim>& sim) {
 }
 
 template <int Dim>
-Checkpoints<Dim>::Checkpoints(std::filesystem::path folder, std::string resolved, const Scene& scene)
+Checkpoints<Dim>::Checkpoints(std::filesystem::path folder, std::string resolved, const Scene& scene, double time)
     : folder_(std::move(folder)),
       resolved_(std::move(resolved)),
+      wait_(scene.output.checkpoint_interval * first_wait),
       snapshot_interval_(scene.output.snapshots > 0 ? scene.time_end / scene.output.snapshots
                                                     : std::numeric_limits<double>::infinity()),
-      next_snapshot_(snapshot_interval_) {}
+      next_snapshot_(snapshot_interval_) {
+  pass_snapshots(time);
+}
+
+template <int Dim>
+bool Checkpoints<Dim>::pass_snapshots(double time) {
+  bool passed = false;
+  for (; time >= next_snapshot_ * (1 - 1e-12); next_snapshot_ += snapshot_interval_) passed = true;
+  return passed;
+}
 
 template <int Dim>
 void Checkpoints<Dim>::observe(Simulation<Dim>& sim, bool last) {
   const double interval = sim.scene.output.checkpoint_interval;
-  const bool due = interval > 0 && std::chrono::duration<double>(clock::now() - written_).count() > interval;
+  const bool due = interval > 0 && std::chrono::duration<double>(clock::now() - written_).count() > wait_;
   if (due || last) {
     sim.timers.time("checkpoints",
                     [&] { write_rotating_checkpoint(folder_ / "checkpoints", checkpoint_view(sim, resolved_)); });
     written_ = clock::now();
+    wait_ = std::min(2 * wait_, interval);
   }
-  if (sim.clock.time >= next_snapshot_ * (1 - 1e-12)) {
+  if (pass_snapshots(sim.clock.time))
     sim.timers.time("snapshots", [&] {
       std::filesystem::create_directories(folder_ / "snapshots");
       write_checkpoint(folder_ / fmt::format("snapshots/snapshot_{:06d}.h5", sim.clock.step),
                        checkpoint_view(sim, resolved_));
     });
-    next_snapshot_ += snapshot_interval_;
-  }
 }
 
 template CheckpointView checkpoint_view<2>(const Simulation<2>&, const std::string&);

@@ -113,16 +113,17 @@ void Progress<Dim>::observe(Simulation<Dim>& sim, bool last) {
   const auto now = clock::now();
   if (start_time_ < 0) {
     start_time_ = sim.clock.time;
-    shown_step_ = sim.clock.step;
+    start_wall_ = sim.wall_seconds;
+    start_step_ = sim.clock.step;
   }
   if (now - shown_ < between_lines && !last) return;
   const double elapsed = std::chrono::duration<double>(now - start_).count();
   const double done = sim.clock.time - start_time_, left = sim.scene.time_end - sim.clock.time;
   const std::string eta = done > 0 && !last ? "  ETA " + hours(elapsed * left / done) : "";
-  const double rate = sim.wall_seconds > 0
-                          ? static_cast<double>(sim.particles.size()) *
-                                static_cast<double>(sim.clock.step - shown_step_) / sim.wall_seconds / 1e6
-                          : 0;
+  const double wall = sim.wall_seconds - start_wall_;
+  const double rate = wall > 0 ? static_cast<double>(sim.particles.size()) *
+                                     static_cast<double>(sim.clock.step - start_step_) / wall / 1e6
+                               : 0;
   const std::size_t limiting = sim.vote.particle;
   const std::string culprit =
       limiting < sim.particles.size()

@@ -45,8 +45,8 @@ class Progress final : public Observer<Dim> {
  private:
   using clock = std::chrono::steady_clock;
   clock::time_point start_ = clock::now(), shown_{};
-  double start_time_ = -1;
-  std::int64_t shown_step_ = 0;
+  double start_time_ = -1, start_wall_ = 0;  ///< of this part of the run [s]
+  std::int64_t start_step_ = 0;
 };
 
 }  // namespace ejecta

@@ -1,5 +1,6 @@
 #include "app/watch.hpp"
 
+#include "app/options.hpp"
 #include "app/tables.hpp"
 
 namespace ejecta {
@@ -60,10 +61,18 @@ void Watch<Dim>::observe(Simulation<Dim>& sim, bool) {
 }
 
 template <int Dim>
-void Watch<Dim>::conclude(const Simulation<Dim>& sim, RunState state) {
+void Watch<Dim>::conclude(const Simulation<Dim>& sim, RunState state, int exit_code) {
   gather(sim);
   status_.state = state;
+  status_.exit = exit_code;
   monitor_.update(status_, true);
+}
+
+template <int Dim>
+void Watch<Dim>::give_up() {
+  status_.state = RunState::failed;
+  status_.exit = exit_code::failed;
+  monitor_.write_over(status_);
 }
 
 template class Watch<2>;

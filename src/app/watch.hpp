@@ -16,7 +16,9 @@ class Watch final : public Observer<Dim> {
   double next_time() const override { return std::numeric_limits<double>::infinity(); }
   void observe(Simulation<Dim>& sim, bool last) override;
   /// The last word of the run.
-  void conclude(const Simulation<Dim>& sim, RunState state);
+  void conclude(const Simulation<Dim>& sim, RunState state, int exit_code);
+  /// The last word of a run that cannot write its files: the status of before, marked as failed.
+  void give_up();
 
  private:
   void gather(const Simulation<Dim>& sim);
