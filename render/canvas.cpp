@@ -75,7 +75,7 @@ void Canvas::picture(Box box, std::span<const std::uint32_t> rgb, int width, int
 void Canvas::save_png(const std::filesystem::path& file) const {
   const cairo_status_t status = cairo_surface_write_to_png(surface_.get(), file.c_str());
   if (status != CAIRO_STATUS_SUCCESS)
-    throw InputError(fmt::format("{}: cannot write the image: {}", file.string(), cairo_status_to_string(status)));
+    throw OutputError(file, cairo_status_to_string(status));
 }
 
 }  // namespace ejecta

@@ -2,8 +2,10 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdlib>
 #include <new>
+#include <system_error>
 
 #include "app/log.hpp"
 #include "app/options.hpp"
@@ -31,14 +33,16 @@ void limit_spinning(char** argv) {
 int main(int argc, char** argv) {
   using namespace ejecta;
   limit_spinning(argv);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error of the write
   if (argc == 2 && std::string_view(argv[1]) == "gl-probe") return run_gl_probe();
   log_to_terminal();
 
   CLI::App app{"Ejecta: impact, porous crushing and fragmentation by smoothed particles, seen while it runs."};
   app.require_subcommand(1);
   app.footer(
-      "Exit codes: 0 done, 2 something in the input is wrong (nothing was written), 3 the simulation failed\n"
-      "(results so far are kept).");
+      "Exit codes: 0 done; 2 something in the input is wrong (nothing was written); 3 the simulation failed or a file\n"
+      "cannot be written (results so far are kept); 4 stopped by a signal (results are complete up to there, and\n"
+      "--restart goes on).");
   RunOptions options;
   int threads = 0, frames_per_second = 0;
   std::string folder, section;
@@ -52,10 +56,13 @@ int main(int argc, char** argv) {
   CLI::App* run = app.add_subcommand("run", "run a scene; images, tables and movies go to the run folder");
   run->add_option("scene", options.scene_file, "scene file (TOML)")->required();
   run->add_option("--out", options.out, "run folder (default: runs/<scene.name>)");
-  run->add_flag("--restart", options.restart, "go on from the last checkpoint in the run folder");
+  run->add_flag("--restart", options.restart,
+                "go on from the last checkpoint in the run folder, with the same scene but for scene.title, time.*,\n"
+                "run.threads, [insitu] and [output] without peaks");
   run->add_flag("--overwrite", options.overwrite, "replace an earlier run in the run folder; files that no run has written stay");
   overrides(run);
-  CLI::App* check = app.add_subcommand("check", "validate a scene; print stages, columns, memory and time");
+  CLI::App* check = app.add_subcommand("check", "validate a scene by setting it up as a run does (as long as a few steps, and its\n"
+                                 "memory); print stages, columns, memory and time");
   check->add_option("scene", options.scene_file, "scene file (TOML)")->required();
   overrides(check);
   CLI::App* describe =
@@ -72,7 +79,7 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     const int code = app.exit(error);
-    return code == 0 ? 0 : 2;
+    return code == 0 ? exit_code::done : exit_code::wrong_input;
   }
   if (threads > 0) options.overrides.push_back(fmt::format("run.threads={}", threads));
 
@@ -83,15 +90,14 @@ int main(int argc, char** argv) {
     if (*replay) return replay_command(folder, options.out);
     if (*describe) fmt::print("{}", reference(section, package_sections()));
     if (*info) return info_command();
-    return 0;
+    return exit_code::done;
   } catch (const InputError& error) {
     print_problems(error);
-    return 2;
-  } catch (const SimulationError& error) {
-    fmt::print(stderr, "ejecta: {}\n", error.what());
-    return 3;
+    return exit_code::wrong_input;
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "ejecta: out of memory\n");
-    return 3;
+  } catch (const std::runtime_error& error) {  // of the simulation, its output, or the file system
+    fmt::print(stderr, "ejecta: {}\n", error.what());
   }
+  return exit_code::failed;
 }

@@ -4,6 +4,14 @@
 
 namespace ejecta {
 
+/// How the program ends.
+namespace exit_code {
+inline constexpr int done = 0;
+inline constexpr int wrong_input = 2;  ///< nothing has been written
+inline constexpr int failed = 3;       ///< the simulation, or the writing of its results; what there is so far is kept
+inline constexpr int stopped = 4;      ///< by a signal; results so far are complete and --restart goes on
+}  // namespace exit_code
+
 /// What the command line of `ejecta run` says.
 struct RunOptions {
   std::string scene_file;
@@ -14,6 +22,7 @@ struct RunOptions {
 };
 
 int run_command(const RunOptions& options);
+/// Sets the scene up as a run does, so that whatever refuses a run before its first step refuses the check.
 int check_command(const std::string& scene_file, const std::vector<std::string>& overrides);
 int movie_command(const std::string& folder, int frames_per_second);
 int replay_command(const std::string& folder, const std::string& out);

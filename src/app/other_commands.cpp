@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <chrono>
+
+#include "app/job.hpp"
 #include "app/log.hpp"
 #include "app/options.hpp"
 #include "app/resources.hpp"
@@ -8,26 +11,37 @@
 #include "commit.hpp"
 #include "material/material_reader.hpp"
 #include "render/movie.hpp"
-#include "scene/scene_reader.hpp"
 #include "scene/units.hpp"
 #include "simulation/simulation.hpp"
 
 namespace ejecta {
 
+namespace {
+
+/// A set-up of more than these is worth a word before.
+constexpr double many_particles = 1e6;
+constexpr double steps_of_a_set_up = 5;
+
+}  // namespace
+
 std::string material_library() { return data_folder() / "inputs" / "materials"; }
 
 int check_command(const std::string& scene_file, const std::vector<std::string>& overrides) {
-  const Scene scene = read_scene(scene_file, overrides, package_sections());
-  const Materials materials = read_materials(scene, material_library());
-  check_memory(scene, materials.list);
-  const Simulation sim = set_up_simulation(scene, materials.list);
-  for (const auto& package : sim.packages) fmt::print("{}", package->outline());
-  fmt::print("packages\n");
-  for (const auto& package : sim.packages)
-    fmt::print("  {:<18} {} elements, {} bytes\n", package->name(), package->elements(), package->bytes());
+  const Job job = read_job(scene_file, overrides);
+  const Scene& scene = job.scene;
+  const Materials& materials = job.materials;
   const Estimate e = estimate(scene, materials.list);
+  if (e.particles > many_particles)
+    spdlog::info("setting up {:.3g} particles as a run does: as long as a few steps, about {}", e.particles,
+                 format_quantity(steps_of_a_set_up * e.seconds / e.steps, "s"));
+  const auto start = std::chrono::steady_clock::now();
+  const Simulation sim = set_up_simulation(scene, materials.list);
+  const std::chrono::duration<double> set_up_time = std::chrono::steady_clock::now() - start;
+  for (const auto& package : sim.packages) fmt::print("{}", package->outline());
+  fmt::print("set-up\n");
+  for (const auto& package : sim.packages) fmt::print("  {:<18} {}\n", package->name(), package->elements());
+  fmt::print("  time               {}\n", format_quantity(set_up_time.count(), "s"));
   fmt::print("estimate\n");
-  fmt::print("  particles          {:.0f}\n", e.particles);
   fmt::print("  memory             {:.0f} bytes a particle, {:.3g} GB in all\n", e.bytes_per_particle,
              e.particles * e.bytes_per_particle / 1e9);
   fmt::print("  steps              {:.0f}, while nothing moves faster than sound at rest\n", e.steps);

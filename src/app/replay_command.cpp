@@ -33,7 +33,7 @@ int replay_command(const std::string& folder, const std::string& out) {
   const auto file = latest_checkpoint(run / "checkpoints");
   if (!file) throw InputError(folder + ": expected a run folder with a checkpoint, found none");
   const Checkpoint checkpoint = read_checkpoint(*file);
-  const Scene scene = parse_scene(checkpoint.scene, file->string(), {}, package_sections());
+  const Scene scene = parse_scene(checkpoint.scene, file->string(), {}, {package_sections(), {}});
   const Materials materials = read_materials(scene, material_library());
   const std::filesystem::path to = out.empty() ? run / "replay" : std::filesystem::path(out);
   return scene.dimension == 2 ? replay_in<2>(scene, materials, checkpoint, to)

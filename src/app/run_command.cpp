@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <filesystem>
+#include <optional>
 
+#include "app/job.hpp"
 #include "app/log.hpp"
 #include "app/options.hpp"
 #include "app/resources.hpp"
@@ -29,15 +32,6 @@ namespace ejecta {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// What a run is given once input has been checked.
-struct Job {
-  Scene scene;
-  Materials materials;
-  std::string resolved;
-  fs::path folder;
-  bool restart = false, overwrite = false, catalyst = false;
-};
 
 void prepare_folder(const Job& job) {
   if (job.overwrite && !job.restart) clear_run_folder(job.folder);
@@ -76,30 +70,35 @@ void conclude(const Simulation& sim, const Sph<Dim>& sph, const FrameResults& fr
   write_timers(job.folder / "timers.csv", times);
   const Summary summary = summarise(sim, sph, frames, context, job.folder, exit_code);
   write_summary(job.folder / "summary.json", summary);
-  fmt::print("{}\n", timer_table(times));
-  fmt::print("{}\n", summary_json(summary));
+  // Everything is in the files: a terminal that has gone is no reason to fail.
+  std::fputs((timer_table(times) + '\n' + summary_json(summary) + '\n').c_str(), stdout);
   spdlog::info("results in {}", job.folder.string());
 }
 
 template <int Dim>
 int run_in(const Job& job) {
+  std::optional<Checkpoint> checkpoint;
+  if (job.restart) {
+    checkpoint = read_checkpoint(*latest_checkpoint(job.folder / "checkpoints"));
+    check_same_scene(*checkpoint, job.resolved, job.scene.file);
+  }
   Simulation sim = set_up_simulation(job.scene, job.materials.list);
   const auto& sph = dynamic_cast<const Sph<Dim>&>(*sim.packages.front());
+  if (checkpoint) restore(sim, *checkpoint);
   prepare_folder(job);
   if (job.scene.insitu.enabled && !job.catalyst)
     spdlog::warn("no OpenGL here: Catalyst is left out, slices are drawn by Ejecta itself, all data are written");
   std::optional<double> resume_at;
-  if (job.restart) {
-    const Checkpoint checkpoint = read_checkpoint(*latest_checkpoint(job.folder / "checkpoints"));
-    restore(sim, checkpoint);
+  if (checkpoint) {
     resume_at = sim.clock.time;
-    spdlog::info("restarted from {} at t = {}", checkpoint.file.filename().string(), format_quantity(*resume_at, "s"));
+    spdlog::info("restarted from {} at t = {}", checkpoint->file.filename().string(), format_quantity(*resume_at, "s"));
+    checkpoint.reset();  // as large as the particles
   }
   Frames<Dim> frames(sph, job.folder, job.catalyst);
   if (job.restart) frames.resume();
   const FragmentContext context = fragment_context(sph);
   Tables tables(job.scene, job.folder, frames, context, resume_at);
-  Checkpoints checkpoints(job.folder, job.resolved, job.scene);
+  Checkpoints checkpoints(job.folder, job.resolved, job.scene, sim.clock.time);
   Status status(sim, job.folder, frames, context);
   Progress progress;
   install_stop_signals();
@@ -108,46 +107,40 @@ int run_in(const Job& job) {
                  Dim, max_threads(),
                  static_cast<double>(package->bytes()) / static_cast<double>(package->elements()));
   const std::vector<Observer*> observers{&frames, &tables, &checkpoints, &status, &progress};
+  int code = exit_code::done;
   try {
-    const bool finished = run(sim, observers, stop_requested);
-    if (!finished) spdlog::warn("stopped by a signal; --restart goes on from here");
-    status.conclude(sim, finished ? RunState::finished : RunState::stopped);
-  } catch (const SimulationError& error) {
-    spdlog::error("{}", error.what());
-    fs::create_directories(job.folder / "checkpoints");
-    write_checkpoint(job.folder / fmt::format("checkpoints/failed_{:06d}.h5", sim.clock.step),
-                     checkpoint_view(sim, job.resolved));
-    frames.observe(sim, true);
-    tables.observe(sim, true);
-    status.conclude(sim, RunState::failed);
-    conclude(sim, sph, frames, job, 3);
-    return 3;
+    RunState state = RunState::finished;
+    try {
+      if (!run(sim, observers, stop_requested)) {
+        spdlog::warn("stopped by a signal; --restart goes on from here");
+        state = RunState::stopped;
+        code = exit_code::stopped;
+      }
+    } catch (const SimulationError& error) {
+      spdlog::error("{}", error.what());
+      state = RunState::failed;
+      code = exit_code::failed;
+      checkpoints.write_failed(sim);
+      frames.observe(sim, true);
+      tables.observe(sim, true);
+    }
+    conclude(sim, sph, frames, job, code);
+    status.conclude(sim, state, code);
+  } catch (...) {
+    status.give_up(exit_code::failed);
+    throw;
   }
-  conclude(sim, sph, frames, job, 0);
-  return 0;
+  return code;
 }
 
 }  // namespace
 
 int run_command(const RunOptions& options) {
-  Job job;
-  job.scene = read_scene(options.scene_file, options.overrides, package_sections());
-  job.materials = read_materials(job.scene, material_library());
-  job.resolved = resolved_toml(job.scene, job.materials);
+  Job job = read_job(options.scene_file, options.overrides);
   job.folder = options.out.empty() ? fs::path("runs") / job.scene.name : fs::path(options.out);
   job.restart = options.restart;
   job.overwrite = options.overwrite;
   check_run_folder(options, job.folder);
-  check_memory(job.scene, job.materials.list);
-  set_threads(job.scene.threads > 0 ? job.scene.threads : available_cores());
-  if (job.scene.insitu.enabled) {
-    check_pipeline_scripts(pipeline_scripts(job.scene.insitu.pipelines, job.scene.fragments.enabled));
-    job.catalyst = gl_works();
-    if (!job.catalyst) {
-      if (job.scene.insitu.on_error == OnError::abort)
-        throw InputError(job.scene.file + ": insitu.on_error: expected rendering to work here, got no OpenGL context");
-    }
-  }
   return job.scene.dimension == 2 ? run_in<2>(job) : run_in<3>(job);
 }
 

@@ -37,8 +37,7 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 bool matches(std::string_view pattern, std::string_view name) {
   if (pattern.empty()) return name.empty();
-  if (pattern[0] == '*')
-    return matches(pattern.substr(1), name) || (!name.empty() && matches(pattern, name.substr(1)));
+  if (pattern[0] == '*') return matches(pattern.substr(1), name) || (!name.empty() && matches(pattern, name.substr(1)));
   if (pattern[0] == '#')
     return !name.empty() && is_digit(name[0]) &&
            (matches(pattern.substr(1), name.substr(1)) || matches(pattern, name.substr(1)));
@@ -87,8 +86,9 @@ void check_run_folder(const RunOptions& options, const fs::path& folder) {
       throw InputError(folder.string() + ": --overwrite: expected a folder of its own for the run, got " + *reason +
                        " or one around it");
     if (filled && !holds_a_run(folder))
-      throw InputError(folder.string() +
-                       ": --overwrite: expected an empty folder or an earlier run, got a folder with other files in it");
+      throw InputError(
+          folder.string() +
+          ": --overwrite: expected an empty folder or an earlier run, got a folder with other files in it");
   } else if (filled) {
     throw InputError(folder.string() +
                      ": expected a new folder, got one with files in it; use --out DIR for another, "

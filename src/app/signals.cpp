@@ -9,13 +9,15 @@ volatile std::sig_atomic_t stop = 0;  // the one thing a signal handler may writ
 
 void ask_to_stop(int signal) {
   stop = 1;
-  std::signal(signal, SIG_DFL);
+  // A closing terminal may hang up twice.
+  std::signal(signal, signal == SIGHUP ? SIG_IGN : SIG_DFL);
 }
 }  // namespace
 
 void install_stop_signals() {
   std::signal(SIGINT, ask_to_stop);
   std::signal(SIGTERM, ask_to_stop);
+  if (std::signal(SIGHUP, ask_to_stop) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup
 }
 bool stop_requested() { return stop != 0; }
 

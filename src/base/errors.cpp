@@ -1,6 +1,6 @@
 #include "base/errors.hpp"
 
-#include <numeric>
+#include <system_error>
 
 namespace ejecta {
 
@@ -14,5 +14,10 @@ std::string join_lines(const std::vector<std::string>& lines) {
 
 InputError::InputError(std::vector<std::string> problems)
     : std::runtime_error(join_lines(problems)), problems_(std::move(problems)) {}
+
+OutputError::OutputError(const std::filesystem::path& file, const std::string& reason)
+    : std::runtime_error(file.string() + ": cannot be written: " + reason) {}
+OutputError::OutputError(const std::filesystem::path& file, int code)
+    : OutputError(file, code == 0 ? "for an unknown reason" : std::generic_category().message(code)) {}
 
 }  // namespace ejecta

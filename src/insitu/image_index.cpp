@@ -3,6 +3,8 @@
 #include <charconv>
 #include <fstream>
 
+#include "base/errors.hpp"
+
 namespace ejecta {
 namespace {
 
@@ -37,7 +39,7 @@ ImageIndex::ImageIndex(std::filesystem::path images_folder) : folder_(std::move(
   std::string row;
   std::getline(in, row);
   while (std::getline(in, row)) rows_[row.substr(row.rfind(',') + 1)] = row;
-  if (rows_.empty()) std::ofstream(folder_ / "data.csv") << header << '\n';
+  if (rows_.empty()) write({}, std::ios::trunc);
 }
 
 std::vector<std::string> ImageIndex::add_new_images(std::int64_t step, double time) {
@@ -51,14 +53,21 @@ std::vector<std::string> ImageIndex::add_new_images(std::int64_t step, double ti
     replaced |= !rows_.insert_or_assign(file, added.back()).second;
   }
   if (replaced) {  // a restarted run draws some frames again: keep one row an image
-    std::ofstream out(folder_ / "data.csv");
-    out << header << '\n';
-    for (const auto& [file, row] : rows_) out << row << '\n';
+    added.clear();
+    for (const auto& [file, row] : rows_) added.push_back(row);
+    write(added, std::ios::trunc);
   } else if (!added.empty()) {
-    std::ofstream out(folder_ / "data.csv", std::ios::app);
-    for (const std::string& row : added) out << row << '\n';
+    write(added, std::ios::app);
   }
   return images;
+}
+
+void ImageIndex::write(const std::vector<std::string>& rows, std::ios::openmode mode) const {
+  std::ofstream out(folder_ / "data.csv", mode);
+  if (mode == std::ios::trunc) out << header << '\n';
+  for (const std::string& row : rows) out << row << '\n';
+  out.close();
+  if (!out) throw OutputError(folder_ / "data.csv");
 }
 
 }  // namespace ejecta

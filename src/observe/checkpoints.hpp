@@ -11,6 +11,11 @@ namespace ejecta {
 /// All that the packages persist. Valid while the simulation is untouched.
 CheckpointView checkpoint_view(const Simulation& sim, const std::string& resolved);
 
+/// Throws InputError naming every key of the scene that differs from that of the checkpoint, with both values, unless
+/// it may change on a restart: scene.title, time.end, time.max_steps, run.threads, all of [insitu], and all of [output]
+/// but peaks. `resolved`: the scene as in resolved.toml; `file` begins each message.
+void check_same_scene(const Checkpoint& checkpoint, const std::string& resolved, const std::string& file);
+
 /// Puts a freshly set-up simulation of the same scene into the state of the checkpoint. Throws InputError if the
 /// checkpoint belongs to another scene.
 void restore(Simulation& sim, const Checkpoint& checkpoint);
@@ -20,16 +25,23 @@ double dump_bytes(const Simulation& sim);
 
 class Checkpoints final : public Observer {
  public:
-  Checkpoints(std::filesystem::path folder, std::string resolved, const Scene& scene);
+  /// `time`: where the run begins or goes on [s].
+  Checkpoints(std::filesystem::path folder, std::string resolved, const Scene& scene, double time);
   double next_time() const override { return next_snapshot_; }
   void observe(Simulation& sim, bool last) override;
+  /// The state of a failed step, for a look at it: checkpoints/failed_<step>.h5.
+  void write_failed(const Simulation& sim) const;
 
  private:
   using clock = std::chrono::steady_clock;
   std::filesystem::path folder_;
   std::string resolved_;
   clock::time_point written_ = clock::now();
+  double wait_;  ///< wall time until the next checkpoint [s]
   double snapshot_interval_, next_snapshot_;
+
+  /// Whether a snapshot is due at this time [s]; the next one then comes later.
+  bool pass_snapshots(double time);
 };
 
 }  // namespace ejecta

@@ -53,10 +53,17 @@ void Status::observe(Simulation& sim, bool) {
   });
 }
 
-void Status::conclude(const Simulation& sim, RunState state) {
+void Status::conclude(const Simulation& sim, RunState state, int exit_code) {
   gather(sim);
   status_.state = state;
+  status_.exit = exit_code;
   monitor_.update(status_, true);
+}
+
+void Status::give_up(int exit_code) {
+  status_.state = RunState::failed;
+  status_.exit = exit_code;
+  monitor_.write_over(status_);
 }
 
 }  // namespace ejecta

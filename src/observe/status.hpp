@@ -14,7 +14,9 @@ class Status final : public Observer {
   Status(const Simulation& sim, std::filesystem::path folder, const FrameResults& frames, FragmentContext context);
   void observe(Simulation& sim, bool last) override;
   /// The last word of the run.
-  void conclude(const Simulation& sim, RunState state);
+  void conclude(const Simulation& sim, RunState state, int exit_code);
+  /// The last word of a run that cannot write its files: the status of before, marked as failed.
+  void give_up(int exit_code);
 
  private:
   void gather(const Simulation& sim);

@@ -8,10 +8,23 @@ namespace ejecta {
 /// Name under which a file is written before it is moved into place.
 inline std::filesystem::path part_name(const std::filesystem::path& file) { return file.string() + ".part"; }
 
-/// Renames the finished part over `file`. Throws InputError if that fails.
+/// Renames the finished part over `file`. Throws OutputError if that fails.
 void move_into_place(const std::filesystem::path& file);
 
-/// Writes the text by way of a part file. Throws InputError if it cannot be written.
+/// Removes the part of `file` if it goes out of scope before the part is moved into place: half a file is of no use,
+/// and a full disk needs the room.
+class PartGuard {
+ public:
+  explicit PartGuard(std::filesystem::path file) : file_(std::move(file)) {}
+  ~PartGuard();
+  PartGuard(const PartGuard&) = delete;
+  PartGuard& operator=(const PartGuard&) = delete;
+
+ private:
+  std::filesystem::path file_;
+};
+
+/// Writes the text by way of a part file. Throws OutputError if it cannot be written.
 void write_atomically(const std::filesystem::path& file, std::string_view text);
 
 }  // namespace ejecta

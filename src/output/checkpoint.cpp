@@ -53,6 +53,7 @@ std::size_t Checkpoint::size(const std::string& prefix) const {
 }
 
 void write_checkpoint(const fs::path& file, const CheckpointView& view) {
+  const PartGuard guard(file);
   {
     Hdf5File out(part_name(file), Hdf5File::Mode::create);
     out.write_attribute("format", format_version);
@@ -63,7 +64,7 @@ void write_checkpoint(const fs::path& file, const CheckpointView& view) {
     for (const auto& [name, value] : view.scalars) out.write("/scalars/" + name, "SI", std::span(&value, 1));
     for (const auto& column : view.columns) out.write("/columns/" + column.name, column.unit, column.values);
     for (const auto& label : view.labels) out.write("/labels/" + label.name, label.unit, label.values);
-    out.flush();
+    out.close();
   }
   move_into_place(file);
 }

@@ -46,10 +46,11 @@ struct Checkpoint {
   std::size_t size(const std::string& prefix) const;
 };
 
-/// Writes one file atomically. Throws InputError if it cannot be written.
+/// Writes one file atomically. Throws OutputError if it cannot be written.
 void write_checkpoint(const std::filesystem::path& file, const CheckpointView& view);
 
-/// Writes folder/checkpoint_<step>.h5 (the folder is made) and removes all but the newest two. Returns its path.
+/// Writes folder/checkpoint_<step>.h5 (the folder is made) and removes all but the newest two. Returns its path. Throws
+/// OutputError.
 std::filesystem::path write_rotating_checkpoint(const std::filesystem::path& folder, const CheckpointView& view);
 
 /// The checkpoint of the highest step in the folder, if there is one.

@@ -57,7 +57,7 @@ void CsvWriter::begin(const std::string& header, const std::vector<std::string>&
   out_.open(file_, std::ios::trunc);
   out_ << header << '\n';
   for (const std::string& row : kept_rows) out_ << row << '\n';
-  if (!out_.flush()) throw InputError(file_.string() + ": cannot be written");
+  if (!out_.flush()) throw OutputError(file_);
 }
 
 void CsvWriter::row(std::span<const CsvCell> cells) {
@@ -65,7 +65,7 @@ void CsvWriter::row(std::span<const CsvCell> cells) {
   std::string line;
   for (std::size_t k = 0; k < cells.size(); ++k) line += (k ? "," : "") + std::visit(CellText{}, cells[k]);
   out_ << line << '\n';
-  if (!out_.flush()) throw InputError(file_.string() + ": cannot be written (is the disk full?)");
+  if (!out_.flush()) throw OutputError(file_);
 }
 
 void write_csv(const std::filesystem::path& file, std::span<const CsvColumn> columns,

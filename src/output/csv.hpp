@@ -16,7 +16,7 @@ struct CsvColumn {
 };
 using CsvCell = std::variant<double, std::int64_t, std::string>;
 
-/// Throws InputError if the file cannot be opened or a row cannot be written.
+/// Throws OutputError if the file cannot be opened or a row cannot be written.
 class CsvWriter {
  public:
   /// A new file, replacing an old one.

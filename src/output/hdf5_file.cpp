@@ -1,6 +1,8 @@
 #include "output/hdf5_file.hpp"
 
 #include <hdf5.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include <type_traits>
 #include <utility>
@@ -47,17 +49,38 @@ std::int64_t text_type(std::size_t length) {
 
 Hdf5Handle::Hdf5Handle(Hdf5Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
 Hdf5Handle::~Hdf5Handle() {
+  const Quiet quiet;
   if (id_ >= 0) close_(id_);
 }
+int Hdf5Handle::close() { return close_(std::exchange(id_, -1)); }
 
 Hdf5File::Hdf5File(std::filesystem::path file, Mode mode)
-    : path_(std::move(file)), file_(open_file(path_, mode), H5Fclose) {
+    : path_(std::move(file)), mode_(mode), file_(open_file(path_, mode), H5Fclose) {
   if (file_.id() < 0)
     fail(mode == Mode::create ? "cannot be written"
                               : "is not a complete HDF5 file (missing, truncated or another format)");
 }
 
-void Hdf5File::fail(const std::string& what) const { throw InputError(path_.string() + ": " + what); }
+/// HDF5 cannot close a file that it cannot write: it would try again at the end of the process and fall over it. What it
+/// still wants to write goes to memory instead; the file is of no use anyway.
+Hdf5File::~Hdf5File() {
+  if (!broken_ || file_.id() < 0) return;
+  const Quiet quiet;
+  void* descriptor = nullptr;
+  if (H5Fget_vfd_handle(file_.id(), H5P_DEFAULT, &descriptor) < 0) return;
+  const int memory = memfd_create("ejecta", 0);
+  dup2(memory, *static_cast<int*>(descriptor));
+  ::close(memory);
+  file_.close();
+}
+
+void Hdf5File::fail(const std::string& what) const {
+  if (mode_ == Mode::create) {
+    broken_ = true;
+    throw OutputError(path_);
+  }
+  throw InputError(path_.string() + ": " + what);
+}
 
 Hdf5Handle Hdf5File::checked(std::int64_t id, Hdf5Handle::Close close, const std::string& what) const {
   if (id < 0) fail(what);
@@ -126,9 +149,9 @@ void Hdf5File::write_attribute(const std::string& name, std::int64_t value) {
   write_number(name, H5T_NATIVE_INT64, value);
 }
 
-void Hdf5File::flush() {
+void Hdf5File::close() {
   const Quiet quiet;
-  if (H5Fflush(file_.id(), H5F_SCOPE_GLOBAL) < 0) fail("cannot be written (is the disk full?)");
+  if (H5Fflush(file_.id(), H5F_SCOPE_GLOBAL) < 0 || file_.close() < 0) fail("cannot be written");
 }
 
 std::vector<std::string> Hdf5File::names(const std::string& group) const {

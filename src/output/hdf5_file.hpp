@@ -1,6 +1,6 @@
 #pragma once
-/// The few things the project wants from HDF5, with handles that close themselves. Errors become InputError with the
-/// name of the file and of the object; HDF5's own messages are kept quiet.
+/// The few things the project wants from HDF5, with handles that close themselves. Errors become
+/// InputError in reading and OutputError in writing, with the name of the file; HDF5's own messages are kept quiet.
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -18,6 +18,8 @@ class Hdf5Handle {
   Hdf5Handle& operator=(Hdf5Handle&&) = delete;
   ~Hdf5Handle();
   std::int64_t id() const { return id_; }
+  /// Negative if that fails.
+  int close();
 
  private:
   std::int64_t id_;
@@ -29,6 +31,9 @@ class Hdf5File {
  public:
   enum class Mode { create, read };
   Hdf5File(std::filesystem::path file, Mode mode);
+  ~Hdf5File();
+  Hdf5File(const Hdf5File&) = delete;
+  Hdf5File& operator=(const Hdf5File&) = delete;
 
   void write(const std::string& name, const std::string& unit, std::span<const double> values);
   void write(const std::string& name, const std::string& unit, std::span<const std::int32_t> values);
@@ -36,8 +41,8 @@ class Hdf5File {
   void write_attribute(const std::string& name, std::int64_t value);
   /// A text of any length as a data set of its own.
   void write_text(const std::string& name, const std::string& text);
-  /// Hands everything to the system; throws if the disk is full.
-  void flush();
+  /// Hands everything to the system, the last thing to do with a file that was created; throws if the disk is full.
+  void close();
 
   /// Names of the data sets under `group` ("/columns"), in alphabetical order; none if there is no such group.
   std::vector<std::string> names(const std::string& group) const;
@@ -61,6 +66,8 @@ class Hdf5File {
   T read_number(const std::string& name, std::int64_t type) const;
 
   std::filesystem::path path_;
+  Mode mode_;
+  mutable bool broken_ = false;  ///< a write has failed
   Hdf5Handle file_;
 };
 

@@ -14,7 +14,7 @@ class History {
  public:
   /// Nothing is written before the first row. After a restart rows later than `resume_at` [s] of the file are dropped.
   explicit History(std::filesystem::path file, std::optional<double> resume_at = {});
-  /// A row, with a column for each quantity: the same ones every time, the first of them the time. Throws InputError if
+  /// A row, with a column for each quantity: the same ones every time, the first of them the time. Throws OutputError if
   /// the file cannot be written.
   void write(const Quantities& row);
 
@@ -24,7 +24,7 @@ class History {
   std::optional<CsvWriter> writer_;
 };
 
-/// Columns: name, seconds, calls, share of all seconds listed. Throws InputError if the file cannot be written.
+/// Columns: name, seconds, calls, share of all seconds listed. Throws OutputError if the file cannot be written.
 void write_timers(const std::filesystem::path& file, std::span<const StageTimers::Entry> timers);
 
 }  // namespace ejecta

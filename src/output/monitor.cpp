@@ -22,7 +22,10 @@ std::string short_json(double value) { return std::isfinite(value) ? fmt::format
 template <class Items, class Text>
 std::string json_list(const Items& items, Text&& text) {
   std::string list;
-  for (const auto& item : items) list += (list.empty() ? "" : ",") + text(item);
+  for (const auto& item : items) {
+    if (!list.empty()) list += ',';
+    list += text(item);
+  }
   return '[' + list + ']';
 }
 
@@ -106,6 +109,7 @@ std::string monitor_json(const MonitorStatus& s, std::int64_t updated) {
   };
   add("scene", to_json(s.scene));
   add("state", to_json(state_names[static_cast<std::size_t>(s.state)]));
+  add("exit", to_json(s.exit));
   add("updated", to_json(updated));
   add("step", to_json(s.step));
   add("time_s", to_json(s.time));
@@ -138,11 +142,23 @@ bool Monitor::due() const { return !written_ || std::chrono::steady_clock::now()
 
 void Monitor::update(const MonitorStatus& status, bool force) {
   if (!force && !due()) return;
+  write(status, write_atomically);
+  written_ = std::chrono::steady_clock::now();
+}
+
+void Monitor::write_over(const MonitorStatus& status) noexcept {
+  try {
+    write(status, [](const std::filesystem::path& file, std::string_view text) { std::ofstream(file) << text; });
+  } catch (const std::exception&) {
+    // The run ends with another error already.
+  }
+}
+
+void Monitor::write(const MonitorStatus& status, Write write_file) const {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   const std::string json = monitor_json(status, std::chrono::duration_cast<std::chrono::seconds>(now).count());
-  write_atomically(folder_ / "status.json", json);
-  write_atomically(folder_ / "status.js", "ejecta_status(" + json + ");\n");
-  written_ = std::chrono::steady_clock::now();
+  write_file(folder_ / "status.json", json);
+  write_file(folder_ / "status.js", "ejecta_status(" + json + ");\n");
 }
 
 }  // namespace ejecta

@@ -34,6 +34,7 @@ struct MonitorView {
 struct MonitorStatus {
   std::string scene;
   RunState state = RunState::running;
+  std::optional<int> exit;  ///< exit code, once the run is over
   std::int64_t step = 0;
   double time = 0, time_end = 0, dt = 0;  ///< s
   std::string limited_by;                 ///< winning vote of the time step
@@ -71,7 +72,7 @@ std::string_view monitor_page();
 /// load scripts but not data when it is opened from disk.
 class Monitor {
  public:
-  /// Makes the folder and the page. Throws InputError if they cannot be written; so does update().
+  /// Makes the folder and the page. Throws OutputError if they cannot be written; so does update().
   explicit Monitor(const std::filesystem::path& run_folder,
                    std::chrono::milliseconds interval = std::chrono::seconds(1));
 
@@ -79,8 +80,14 @@ class Monitor {
   bool due() const;
   /// Replaces the status atomically, at most once an interval unless forced (the last word of a run).
   void update(const MonitorStatus& status, bool force = false);
+  /// The last word of a run whose files cannot be written: tries as well as it can, by writing over the status that is
+  /// there, and never throws.
+  void write_over(const MonitorStatus& status) noexcept;
 
  private:
+  using Write = void (*)(const std::filesystem::path& file, std::string_view text);
+  void write(const MonitorStatus& status, Write write_file) const;
+
   std::filesystem::path folder_;
   std::chrono::steady_clock::duration interval_;
   std::optional<std::chrono::steady_clock::time_point> written_;

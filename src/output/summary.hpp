@@ -45,13 +45,13 @@ struct Summary {
   std::optional<std::int64_t> fragments;                 ///< of all bodies
   std::vector<BodySummary> bodies;                       ///< an object by name
   Quantities quantities;                                 ///< the last row of history.csv, an object by name and unit
-  int exit = 0;                                          ///< exit code: 0, 2, 3
+  int exit = 0;                                          ///< exit code of the run: 0 done, 3 failed, 4 stopped by a signal
 };
 
 /// One JSON object, one key a line, in the order of the members.
 std::string summary_json(const Summary& summary);
 
-/// Replaces the file atomically. Throws InputError if it cannot be written.
+/// Replaces the file atomically. Throws OutputError if it cannot be written.
 void write_summary(const std::filesystem::path& file, const Summary& summary);
 
 }  // namespace ejecta

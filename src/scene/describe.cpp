@@ -111,7 +111,7 @@ void describe(Describer& d, OutputSettings& o) {
   d.number("history_interval", o.history_interval, "s", positive,
            "simulated time between rows of history.csv; else end/200");
   d.number("checkpoint_interval", o.checkpoint_interval, "s", non_negative,
-           "wall time between checkpoints; 0: only at the end");
+           "wall time between checkpoints, which begin at a tenth of it; 0: only at the end");
   d.integer("snapshots", o.snapshots, non_negative, "full dumps, equally spaced in simulated time");
   d.flag("peaks", o.peaks, "particles remember peak pressure, peak energy, lowest density and where they come from");
 }

@@ -7,6 +7,7 @@
 #include "base/data_folder.hpp"
 #include "base/errors.hpp"
 #include "scene/describe.hpp"
+#include "scene/units.hpp"
 
 namespace ejecta {
 
@@ -44,8 +45,32 @@ void find_pipelines(Scene& scene, const Document& document, Problems& problems) 
   }
 }
 
-Scene interpret(Document document, const std::vector<std::string>& overrides,
-                const std::vector<SceneSection>& sections) {
+/// The numbers of a colour range stand in SI; texts carry a unit, which must be one of the field.
+void check_ranges(const Document& document, const std::map<std::string, std::string>& fields, Problems& problems) {
+  std::vector<std::string> names;
+  for (const auto& [name, unit] : fields) names.push_back(name);
+  for (const std::string& name : document.children("insitu.ranges")) {
+    const std::string path = "insitu.ranges." + name;
+    const auto field = fields.find(name);
+    if (field == fields.end()) {
+      const std::string near = nearest_word(name, names);
+      problems.add(document.origin(path), path,
+                   near.empty() ? "no such field" : "no such field, did you mean " + near + "?");
+      continue;
+    }
+    const auto item = document.items.find(path);
+    const auto* list = item == document.items.end() ? nullptr : std::get_if<LiteralList>(&item->second.literal.value);
+    if (!list || problems.has(path)) continue;
+    try {
+      for (const Literal& bound : *list)
+        if (const auto* text = std::get_if<std::string>(&bound.value)) parse_quantity(*text, field->second);
+    } catch (const InputError& error) {
+      problems.add(item->second.origin, path, error.what());
+    }
+  }
+}
+
+Scene interpret(Document document, const std::vector<std::string>& overrides, const SceneContext& context) {
   Problems problems;
   for (const std::string& assignment : overrides) {
     try {
@@ -64,11 +89,12 @@ Scene interpret(Document document, const std::vector<std::string>& overrides,
   if (document.tables.erase("bodies"))
     std::erase_if(document.items, [](const auto& item) { return item.first.starts_with("bodies."); });
   for (const std::string& field : document.children("insitu.ranges")) scene.insitu.ranges[field] = {0, 1};
-  for (const SceneSection& section : sections)
+  for (const SceneSection& section : context.sections)
     if (document.holds(section.name)) scene.sections[section.name] = section.settings();
   Describer description;
-  describe(description, scene, sections);
+  describe(description, scene, context.sections);
   read_settings(description, document, problems);
+  if (!context.fields.empty()) check_ranges(document, context.fields, problems);
   for (std::size_t k = 0; k < scene.bodies.size(); ++k)
     scene.bodies[k].origin = document.origin(fmt::format("bodies[{}]", k)).text;
   find_pipelines(scene, document, problems);
@@ -79,14 +105,13 @@ Scene interpret(Document document, const std::vector<std::string>& overrides,
 
 }  // namespace
 
-Scene read_scene(const std::string& path, const std::vector<std::string>& overrides,
-                 const std::vector<SceneSection>& sections) {
-  return interpret(read_document(path), overrides, sections);
+Scene read_scene(const std::string& path, const std::vector<std::string>& overrides, const SceneContext& context) {
+  return interpret(read_document(path), overrides, context);
 }
 
 Scene parse_scene(const std::string& text, const std::string& name, const std::vector<std::string>& overrides,
-                  const std::vector<SceneSection>& sections) {
-  return interpret(parse_document(text, name), overrides, sections);
+                  const SceneContext& context) {
+  return interpret(parse_document(text, name), overrides, context);
 }
 
 std::string scene_toml(const Scene& scene) {

@@ -1,10 +1,13 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/errors.hpp"
 #include "base/parallel.hpp"
 #include "particles/smoothing_metric.hpp"
+#include "scene/units.hpp"
 #include "schemes/kernels.hpp"
 #include "schemes/pair_records.hpp"
 #include "sph/pieces.hpp"
@@ -26,6 +29,25 @@ std::vector<int> number_materials(const Scene& scene, const std::vector<Material
     numbers.push_back(m);
   }
   return numbers;
+}
+
+/// A particle meets each other one once in a periodic box, and itself not at all, only if the box is wider than the
+/// kernel reaches; images are made one box length away and no further.
+void check_periodic_width(const Scene& scene) {
+  constexpr std::array axes{"x", "y", "z"};
+  double spacing = 0;
+  for (const Body& body : scene.bodies) spacing = std::max(spacing, scene.spacing * body.spacing_factor);
+  const double reach = kernel_support(scene.numerics.kernel) * scene.numerics.nodes_per_h * spacing;
+  std::vector<std::string> problems;
+  for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dimension); ++a) {
+    const double width = scene.boundary.max[a] - scene.boundary.min[a];
+    if (scene.boundary.kind[a] == BoundaryKind::periodic && width < reach)
+      problems.push_back(
+          fmt::format("{}: boundary.{}: expected a periodic box wider than the kernel reaches at the "
+                      "start, {}, got {}",
+                      scene.file, axes[a], format_quantity(reach, "m"), format_quantity(width, "m")));
+  }
+  if (!problems.empty()) throw InputError(problems);
 }
 
 /// Puts the formulas of the bodies in place of their uniform values.
@@ -131,6 +153,7 @@ void plant(Sph<Dim>& sph, const std::vector<Seedling<Dim>>& seedlings) {
 
 template <int Dim>
 std::unique_ptr<Sph<Dim>> set_up(const Scene& scene, const std::vector<Material>& materials) {
+  check_periodic_width(scene);
   auto sph = std::make_unique<Sph<Dim>>();
   sph->scene = scene;
   sph->materials = materials;

@@ -49,7 +49,8 @@ class BadInput(RunTest):
         return 1 + text[:text.index(old)].count("\n")  # the line it is on
 
     def refused(self, *parts, arguments=(), out="run", lines=1):
-        """The run ends with code 2 and one line that holds all parts; the folder is as it was."""
+        """The run ends with code 2 and one line that holds all parts; the folder is as it was. So does the check of the
+        scene, unless it is the folder that is wrong."""
         before = {path: path.read_bytes() for path in self.folder.rglob("*") if path.is_file()}
         result = ejecta("run", "scene.toml", "--out", out, *arguments, cwd=self.folder)
         self.assertEqual(result.returncode, 2, result.stderr)
@@ -59,6 +60,9 @@ class BadInput(RunTest):
             self.assertIn(part, result.stderr)
         self.assertEqual(before, {path: path.read_bytes() for path in self.folder.rglob("*") if path.is_file()})
         self.assertFalse((self.folder / "run").exists())
+        if out == "run":
+            check = ejecta("check", "scene.toml", *arguments, cwd=self.folder)
+            self.assertEqual((check.returncode, check.stdout, check.stderr), (2, "", result.stderr))
 
     def test_unknown_key(self):
         line = self.edit("view_size", "veiw_size")
@@ -99,6 +103,22 @@ class BadInput(RunTest):
     def test_overlapping_bodies(self):
         self.edit("39 mm", "37 mm")
         self.refused("bodies.projectile", "overlap")
+
+    def test_colour_ranges(self):
+        line = self.edit("[fragments]", '[insitu.ranges]\npresure = [0, 1]\n\n[fragments]') + 1
+        self.refused(f"scene.toml:{line}: insitu.ranges.presure: no such field, did you mean pressure?")
+        self.edit("presure = [0, 1]", 'pressure = ["0 mm", "3 mm"]')
+        self.refused(f"scene.toml:{line}: insitu.ranges.pressure: expected a pressure", 'got "0 mm"')
+        self.edit('["0 mm", "3 mm"]', '[0, "1 m/s"]')
+        self.refused(f"scene.toml:{line}: insitu.ranges.pressure: expected a pressure", 'got "1 m/s"')
+
+    def test_periodic_box_narrower_than_the_kernel(self):
+        self.edit("[insitu]", '[boundary]\nx = "periodic"\nmin = ["-1 mm", 0]\nmax = ["1 mm", 0]\n\n[insitu]')
+        self.refused("scene.toml: boundary.x: expected a periodic box wider than the kernel", "2.6 mm", "2 mm")
+
+    def test_body_without_a_particle(self):
+        self.edit("[insitu]", '[boundary]\nx = "reflecting"\nmin = ["1 m", 0]\nmax = ["2 m", 0]\n\n[insitu]')
+        self.refused("bodies.target", "bodies.projectile", "at least one particle", lines=2)
 
     def test_missing_script(self):
         line = self.edit("frames = 40", 'frames = 40\npipelines = ["mine.py"]') + 1

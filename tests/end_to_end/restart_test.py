@@ -27,7 +27,7 @@ class Restart(RunTest):
             time.sleep(0.02)
         os.kill(run.pid, number)
         _, log = run.communicate(timeout=60)
-        self.assertEqual(run.returncode, 0, log)
+        self.assertEqual(run.returncode, 4, log)
         self.assertIn("stopped by a signal", log)
         return out
 
@@ -37,7 +37,7 @@ class Restart(RunTest):
             with self.subTest(number.name):
                 out = self.interrupted(number.name, number, VALUES, after=30e-6)
                 stopped = summary(out)
-                self.assertEqual(stopped["exit"], 0)
+                self.assertEqual(stopped["exit"], 4)
                 self.assertTrue(30e-6 < stopped["time_s"] < 100e-6)
                 checkpoint, = (out / "checkpoints").glob("checkpoint_*.h5")
                 self.assertIn(str(stopped["steps"]), checkpoint.name)

@@ -3,7 +3,7 @@ import os
 import unittest
 from ejecta_run import IMPACT_2D, RunTest, ejecta, settings, summary
 
-QUICK = {"resolution.spacing": "4mm", "time.max_steps": 3, "insitu.enabled": "false"}
+QUICK = {"resolution.spacing": "4mm", "time.max_steps": 3, "insitu.enabled": "false", "run.threads": 1}
 
 
 class RunFolder(RunTest):

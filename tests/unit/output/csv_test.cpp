@@ -50,8 +50,8 @@ TEST(Csv, ResumeDropsLaterRowsAndTornLines) {
   EXPECT_EQ(table.rows[3][1], "99");
 }
 
-TEST(Csv, UnwritablePlaceIsAnInputError) {
-  EXPECT_THROW(CsvWriter(scratch("no_such_folder") / "a.csv", columns), InputError);
+TEST(Csv, UnwritablePlaceIsAnOutputError) {
+  EXPECT_THROW(CsvWriter(scratch("no_such_folder") / "a.csv", columns), OutputError);
   EXPECT_THROW(read_csv(scratch("missing.csv")), InputError);
 }
 

@@ -181,10 +181,10 @@ TEST(Monitor, FilesAreReplacedWholeAndThePageNeedsNothingElse) {
     EXPECT_EQ(without_svg_name.find(outside), std::string::npos) << outside;
 }
 
-TEST(Monitor, UnwritablePlaceIsAnInputError) {
+TEST(Monitor, UnwritablePlaceIsAnOutputError) {
   const auto folder = empty_folder("file_in_the_way");
   std::ofstream(folder / "monitor") << "not a folder";
-  EXPECT_THROW(Monitor{folder}, InputError);
+  EXPECT_THROW(Monitor{folder}, OutputError);
 }
 
 }  // namespace

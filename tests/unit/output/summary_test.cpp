@@ -76,7 +76,7 @@ TEST(Summary, WritesValuesNullsAndEscapes) {
             std::string::npos);
   EXPECT_NE(text.str().find("\"exit\": 3\n}"), std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(file.string() + ".part"));
-  EXPECT_THROW(write_summary("/no_such_folder/summary.json", s), InputError);
+  EXPECT_THROW(write_summary("/no_such_folder/summary.json", s), OutputError);
 }
 
 }  // namespace

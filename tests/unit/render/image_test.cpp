@@ -92,7 +92,7 @@ TEST_F(ImageTest, PaintsTheFieldTheRightWayUpAndLeavesVoidEmpty) {
   EXPECT_GT(at(0.3, 0.7), 0xF00000u);  // void: the light background
 }
 
-TEST_F(ImageTest, SameFrameSameBytesAndUnwritableIsAnInputError) {
+TEST_F(ImageTest, SameFrameSameBytesAndUnwritableIsAnOutputError) {
   const PixelGrid grid = centred_grid(40, 40, {0, 0}, 1);
   const std::vector<double> field(1600, 10.0);
   const std::vector<Panel> panels{{"density", "kg/m^3", field, 1, 100, ColourMap::inferno, true},
@@ -101,7 +101,7 @@ TEST_F(ImageTest, SameFrameSameBytesAndUnwritableIsAnInputError) {
   const Png first = read_png(file);
   write_panels(file, 640, 400, grid, panels, {"", 0, 1});
   EXPECT_EQ(first.rgb, read_png(file).rgb);
-  EXPECT_THROW(write_panels("/no_such_folder/a.png", 640, 400, grid, panels, {"", 0, 1}), InputError);
+  EXPECT_THROW(write_panels("/no_such_folder/a.png", 640, 400, grid, panels, {"", 0, 1}), OutputError);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 struct Probe {
   std::unique_ptr<Sph<3>> sim;
   Particles<3>& p;
-  explicit Probe(const std::string& material)
+  explicit Probe(const std::string& material, const std::string& more = "")
       : sim(start<3>(R"([scene]
 name = "probe"
 [resolution]
@@ -25,7 +25,7 @@ name = "probe"
 shape = "box"
 size = ["1 mm", "1 mm", "1 mm"]
 material = ")" + material +
-                     "\"\n")),
+                     "\"\n" + more)),
         p(sim->particles) {}
   const Material& material() const { return sim->materials[0]; }
   double& at(Field f, int component = 0) { return p.column(f, component)[0]; }
@@ -45,6 +45,26 @@ TEST(EquationOfStateStage, GivesPressureAndLongitudinalSpeedOfADenseSolid) {
   const double bulk = point.dP_drho + point.pressure / (rho * rho) * point.dP_de;
   EXPECT_NEAR(probe.at(Field::sound_speed), std::sqrt(bulk + 4.0 / 3 * probe.material().elastic->shear_modulus / rho),
               1e-9);
+}
+
+TEST(EquationOfStateStage, SoundIsSlowerInAPorousBodyAsTheSceneSays) {
+  // 300 m/s in the intact body, the speed in the solid in one without pores, and linear in the distension between.
+  Probe solid("pumice"), porous("pumice", "[materials.pumice.porosity]\nsound_speed = \"300 m/s\"\n");
+  const double alpha0 = solid.material().porosity->initial_distension(), rho0 = solid.at(Field::density);
+  const auto crush_to = [&](double density) {
+    for (Probe* probe : {&solid, &porous}) {
+      probe->at(Field::density) = density;
+      equation_of_state(*probe->sim);
+    }
+    EXPECT_EQ(porous.at(Field::distension), solid.at(Field::distension));
+    return (porous.at(Field::distension) - 1) / (alpha0 - 1);
+  };
+  EXPECT_EQ(crush_to(rho0), 1);
+  ASSERT_GT(solid.at(Field::sound_speed), 1000);
+  EXPECT_NEAR(porous.at(Field::sound_speed), 300, 1e-9);
+  const double pores = crush_to(1.4 * rho0), speed = solid.at(Field::sound_speed);
+  ASSERT_TRUE(0.2 < pores && pores < 0.8);
+  EXPECT_NEAR(porous.at(Field::sound_speed), pores * 300 + (1 - pores) * speed, 1e-9 * speed);
 }
 
 TEST(EquationOfStateStage, CrushesAPorousSolidForGood) {

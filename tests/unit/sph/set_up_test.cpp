@@ -186,5 +186,48 @@ TEST(SetUp, OverlappingBodiesAreAnInputError) {
   }
 }
 
+TEST(SetUp, APeriodicBoxIsWiderThanTheKernelReaches) {
+  const auto strip = [](int spacings) {
+    return R"([scene]
+name = "strip"
+dimension = 2
+[resolution]
+spacing = "1 m"
+[time]
+end = "1 s"
+[[bodies]]
+name = "gas"
+material = "air"
+shape = "rectangle"
+size = ["20 m", ")" +
+           std::to_string(spacings) + R"( m"]
+density = "1 kg/m^3"
+pressure = "1 Pa"
+[numerics]
+density = "summation"
+kernel = "wendland_c4"
+[boundary]
+x = "periodic"
+y = "periodic"
+min = ["-10 m", ")" +
+           std::to_string(-0.5 * spacings) + R"( m"]
+max = ["10 m", ")" +
+           std::to_string(0.5 * spacings) + " m\"]\n";
+  };
+  // The kernel reaches 2.6 spacings: nobody meets the same neighbour twice, or too few of them, from 3 on.
+  const double wide = start<2>(strip(20))->particles.column(Field::density)[0];
+  for (const int spacings : {3, 4, 5, 6})
+    EXPECT_NEAR(start<2>(strip(spacings))->particles.column(Field::density)[0], wide, 1e-12 * wide) << spacings;
+  for (const int spacings : {1, 2}) try {
+      start<2>(strip(spacings));
+      ADD_FAILURE() << "no error";
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.problems().size(), 1u);
+      EXPECT_NE(std::string(error.what()).find("boundary.y: expected a periodic box wider than the kernel"),
+                std::string::npos)
+          << error.what();
+    }
+}
+
 }  // namespace
 }  // namespace ejecta

@@ -5,7 +5,7 @@ from exact.porous import CrushCurve, Matter, PorousBody, wall_profiles, wave_spe
 from exact.tillotson import Tillotson
 from harness import Bound, Case, binned, fall, l1, relative
 
-ROWS, LENGTH, MATERIAL = 3, 0.02, "porous_aluminium"
+ROWS, LENGTH, MATERIAL = 5, 0.02, "porous_aluminium"
 # Shock speed, density, pressure with an elastic branch of 4110 m/s, worked out by another program; the last is a shock
 # into the state behind the precursor, although it would catch up with it.
 PRINTED = {200: (1005.7, 2624.8, 0.4833e9), 458: (1982.75, 2747.05, 1.9594e9), 800: (3194.4, 2823.4, 5.425e9),

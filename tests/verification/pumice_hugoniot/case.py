@@ -5,7 +5,7 @@ from exact.porous import CrushCurve, PorousBody, wall_profiles, wave_speed
 from exact.tillotson import Tillotson
 from harness import Bound, Case, binned, fall, l1, relative
 
-CRUSHED, ROWS, SOUND = 0.01, 3, 3388  # m of bar that the front runs through; spacings; speed of the precursor [m/s]
+CRUSHED, ROWS, SOUND = 0.01, 5, 3388  # m of bar that the front runs through; spacings; speed of the precursor [m/s]
 # Speed of the throw: speed of the front, pressure and density behind it, worked out by another program for a single
 # shock into pumice at rest. Without the precursor of 1 MPa ahead slow fronts would be faster.
 PRINTED = {20: (168.8, 2.36e6, 794), 50: (159.8, 5.59e6, 1019), 100: (195.0, 13.65e6, 1437),

@@ -1,0 +1,43 @@
+#include "app/job.hpp"
+
+#include "app/options.hpp"
+#include "app/resources.hpp"
+#include "base/errors.hpp"
+#include "base/parallel.hpp"
+#include "insitu/gl_probe.hpp"
+#include "insitu/pipelines.hpp"
+#include "model/package_kind.hpp"
+#include "particles/fields.hpp"
+#include "scene/scene_reader.hpp"
+
+namespace ejecta {
+
+namespace {
+
+/// Everything that pipelines can colour: the columns of particles, and what the other channels add.
+std::map<std::string, std::string> colourable_fields() {
+  std::map<std::string, std::string> units{{"aspect", "1"}, {"target_mass", "kg"}, {"longest_semi_axis", "m"}};
+  for (const FieldInfo& field : field_catalogue())
+    if (field.role != Role::rate) units.emplace(field.name, field.unit);
+  return units;
+}
+
+}  // namespace
+
+Job read_job(const std::string& scene_file, const std::vector<std::string>& overrides) {
+  Job job;
+  job.scene = read_scene(scene_file, overrides, {package_sections(), colourable_fields()});
+  job.materials = read_materials(job.scene, material_library());
+  job.resolved = resolved_toml(job.scene, job.materials);
+  check_memory(job.scene, job.materials.list);
+  set_threads(job.scene.threads > 0 ? job.scene.threads : available_cores());
+  const InSitu& insitu = job.scene.insitu;
+  if (!insitu.enabled) return job;
+  check_pipeline_scripts(pipeline_scripts(insitu.pipelines, job.scene.fragments.enabled));
+  job.catalyst = gl_works();
+  if (!job.catalyst && insitu.on_error == OnError::abort)
+    throw InputError(job.scene.file + ": insitu.on_error: expected rendering to work here, got no OpenGL context");
+  return job;
+}
+
+}  // namespace ejecta
