@@ -1,4 +1,7 @@
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 
 #include "simulation/simulation.hpp"
 
@@ -25,10 +28,10 @@ Quantities quantities(const Simulation& sim) {
   list.push_back({"energy error", "1", errors.energy,
                   "(total - initial total - external work) / the largest of initial total, initial kinetic, work", true});
   for (int a = 0; a < sim.scene.dimension; ++a)
-    list.push_back({std::string("momentum ") + axes[static_cast<std::size_t>(a)], momentum, now.momentum[a], "of everything"});
+    list.push_back({fmt::format("momentum {}", axes[static_cast<std::size_t>(a)]), momentum, now.momentum[a], "of everything"});
   if (kept(sim).angular_momentum) {
     for (int a = flat ? 2 : 0; a < 3; ++a)
-      list.push_back({std::string("angular momentum ") + axes[static_cast<std::size_t>(a)], angular,
+      list.push_back({fmt::format("angular momentum {}", axes[static_cast<std::size_t>(a)]), angular,
                       now.angular_momentum[a], "about the origin"});
     list.push_back({"angular momentum error", "1", errors.angular_momentum,
                     "change less external torque over sum |x - x_c| |m v|", true});
