@@ -37,6 +37,17 @@ std::int64_t open_file(const std::filesystem::path& file, Hdf5File::Mode mode) {
                                         : H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
 }
 
+/// HDF5 cannot close what it cannot write: it would try again at the end of the process and fall over it. What it still
+/// wants to write of a file that is of no use any more goes to memory instead.
+void divert_to_memory(std::int64_t file) {
+  const Quiet quiet;
+  void* descriptor = nullptr;
+  if (H5Fget_vfd_handle(file, H5P_DEFAULT, &descriptor) < 0) return;
+  const int memory = memfd_create("ejecta", 0);
+  dup2(memory, *static_cast<int*>(descriptor));
+  close(memory);
+}
+
 /// A zero-terminated UTF-8 text of fixed length.
 std::int64_t text_type(std::size_t length) {
   const hid_t type = H5Tcopy(H5T_C_S1);
@@ -61,23 +72,11 @@ Hdf5File::Hdf5File(std::filesystem::path file, Mode mode)
                               : "is not a complete HDF5 file (missing, truncated or another format)");
 }
 
-/// HDF5 cannot close a file that it cannot write: it would try again at the end of the process and fall over it. What it
-/// still wants to write goes to memory instead; the file is of no use anyway.
-Hdf5File::~Hdf5File() {
-  if (!broken_ || file_.id() < 0) return;
-  const Quiet quiet;
-  void* descriptor = nullptr;
-  if (H5Fget_vfd_handle(file_.id(), H5P_DEFAULT, &descriptor) < 0) return;
-  const int memory = memfd_create("ejecta", 0);
-  dup2(memory, *static_cast<int*>(descriptor));
-  ::close(memory);
-  file_.close();
-}
-
 void Hdf5File::fail(const std::string& what) const {
   if (mode_ == Mode::create) {
-    broken_ = true;
-    throw OutputError(path_);
+    const int reason = errno;
+    if (file_.id() >= 0) divert_to_memory(file_.id());
+    throw OutputError(path_, reason);
   }
   throw InputError(path_.string() + ": " + what);
 }
@@ -95,7 +94,8 @@ void Hdf5File::write_text(const std::string& name, const std::string& text) {
   const Hdf5Handle data =
       checked(H5Dcreate2(file_.id(), name.c_str(), type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
               H5Dclose, what);
-  if (H5Dwrite(data.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()) < 0) fail(what);
+  if (H5Dwrite(data.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()) < 0 || H5Dflush(data.id()) < 0)
+    fail(what);
 }
 
 std::string Hdf5File::read_text(const std::string& name) const {
@@ -125,6 +125,7 @@ void Hdf5File::write_values(const std::string& name, const std::string& unit, st
   const Hdf5Handle attribute =
       checked(H5Acreate2(data.id(), "unit", text.id(), scalar.id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose, what);
   if (H5Awrite(attribute.id(), text.id(), unit.c_str()) < 0) fail(what);
+  if (H5Dflush(data.id()) < 0) fail(what);  // closing would write the rest and could not complain
 }
 
 void Hdf5File::write(const std::string& name, const std::string& unit, std::span<const double> values) {

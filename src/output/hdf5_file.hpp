@@ -31,9 +31,6 @@ class Hdf5File {
  public:
   enum class Mode { create, read };
   Hdf5File(std::filesystem::path file, Mode mode);
-  ~Hdf5File();
-  Hdf5File(const Hdf5File&) = delete;
-  Hdf5File& operator=(const Hdf5File&) = delete;
 
   void write(const std::string& name, const std::string& unit, std::span<const double> values);
   void write(const std::string& name, const std::string& unit, std::span<const std::int32_t> values);
@@ -67,7 +64,6 @@ class Hdf5File {
 
   std::filesystem::path path_;
   Mode mode_;
-  mutable bool broken_ = false;  ///< a write has failed
   Hdf5Handle file_;
 };
 
