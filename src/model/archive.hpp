@@ -17,7 +17,7 @@ class Archive {
 
   /// Whether what it is shown is filled in.
   virtual bool reads() const = 0;
-  /// Whether a number is there; false only of checkpoints written before it was.
+  /// Whether a number or column is there; false only of checkpoints written before it was.
   virtual bool has(const std::string& name) const = 0;
   /// Number of elements of all columns and labels that follow: the one given, or the one that was saved.
   virtual std::size_t size(std::size_t present) = 0;

@@ -36,6 +36,7 @@ enum class Field {
   distension,
   stress_factor,
   damage,
+  intact_share,
   crack,
   local_strain,
   damage_tensor,
@@ -66,6 +67,7 @@ struct FieldInfo {
   std::string_view unit;
   Role role;
   std::string_view doc;
+  Field rate_of = Field::count;  ///< of a rate: the state that it advances
 };
 
 /// In the order of the enumeration.

@@ -6,6 +6,16 @@
 
 namespace ejecta {
 
+std::vector<Range> ranges_of_materials(std::span<const std::int32_t> material, std::size_t materials) {
+  std::vector<Range> ranges;
+  for (std::size_t m = 0; m < materials; ++m) {
+    const auto equal = std::ranges::equal_range(material, static_cast<std::int32_t>(m));
+    ranges.push_back({static_cast<std::size_t>(equal.begin() - material.begin()),
+                      static_cast<std::size_t>(equal.end() - material.begin())});
+  }
+  return ranges;
+}
+
 template <int Dim>
 void Particles<Dim>::allocate(std::size_t n, std::span<const Field> fields) {
   size_ = n;
@@ -23,6 +33,19 @@ void Particles<Dim>::allocate(std::size_t n, std::span<const Field> fields) {
   for (auto& label : labels_) label.assign(n, 0);
   scratch_.assign(n, 0.0);
   label_scratch_.assign(n, 0);
+}
+
+template <int Dim>
+void Particles<Dim>::resize(std::size_t n) {
+  auto fit = [&](auto& column) {
+    if (column.size() == size_) column.resize(n);  // those of absent fields are empty
+  };
+  for (auto* columns : {&columns_, &previous_, &expected_})
+    for (auto& column : *columns) fit(column);
+  for (auto& label : labels_) fit(label);
+  fit(scratch_);
+  fit(label_scratch_);
+  size_ = n;
 }
 
 template <int Dim>

@@ -11,6 +11,9 @@
 
 namespace ejecta {
 
+/// The range of each material, particles of which are contiguous, in the order of their numbers.
+std::vector<Range> ranges_of_materials(std::span<const std::int32_t> material, std::size_t materials);
+
 /// Integer labels every particle carries.
 enum class Label { id, body, material, count };
 
@@ -73,6 +76,9 @@ class Particles {
 
   /// Puts particle order[i] at place i, in every column. `order` is a permutation of 0..n-1.
   void reorder(std::span<const std::uint32_t> order);
+
+  /// Makes room for n particles: the first ones stay, what is new is zero. Material ranges are the caller's.
+  void resize(std::size_t n);
 
   /// Memory of all columns [bytes].
   std::size_t bytes() const;

@@ -78,7 +78,7 @@ class PairPass {
   ///
   /// Reads what PairRecord reads; writes acceleration, heating, neighbour_sum, approach_speed, velocity_gradient,
   /// coupled_gradient, stretch (of bonds: the largest |x_ij|/|X_ij|, at least 1).
-  virtual void rates(Particles<Dim>& particles, const PairLists<Dim>& lists, std::span<const double> intact) = 0;
+  virtual void rates(Particles<Dim>& particles, const PairLists<Dim>& lists) = 0;
 
   virtual std::size_t bytes() const = 0;
 };

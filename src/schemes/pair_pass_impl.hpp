@@ -31,7 +31,7 @@ class PairPassOf final : public PairPass<Dim> {
       : settings_(settings), around_{{}, settings.gradient_correction, HalfSpace(K{}, Dim)} {}
 
   void density(Particles<Dim>& particles, const PairLists<Dim>& lists) override;
-  void rates(Particles<Dim>& particles, const PairLists<Dim>& lists, std::span<const double> intact) override;
+  void rates(Particles<Dim>& particles, const PairLists<Dim>& lists) override;
   std::size_t bytes() const override {
     return (records_.capacity() + contacts_.capacity()) * sizeof(T) + in_contact_.capacity() +
            around_.sums.capacity() * sizeof(around_.sums[0]);
@@ -137,8 +137,7 @@ void PairPassOf<T, Dim, Kind, K, Flux>::for_partners(const Members& members, con
 }
 
 template <class T, int Dim, PassKind Kind, class K, class Flux>
-void PairPassOf<T, Dim, Kind, K, Flux>::rates(Particles<Dim>& particles, const PairLists<Dim>& lists,
-                                              std::span<const double> intact) {
+void PairPassOf<T, Dim, Kind, K, Flux>::rates(Particles<Dim>& particles, const PairLists<Dim>& lists) {
   const PairRules& rules = settings_.rules;
   const auto& clusters = lists.clusters();
   const RateColumns<Dim> columns(particles);
@@ -157,7 +156,7 @@ void PairPassOf<T, Dim, Kind, K, Flux>::rates(Particles<Dim>& particles, const P
         sum_moments<false>(columns, clusters[k], lists.candidates(k));
     });
   }
-  R::pack_stress(particles, lists.images(), rules, intact, around_, records_, contacts_);
+  R::pack_stress(particles, lists.images(), rules, around_, records_, contacts_);
   for_clusters(lists, [&](std::size_t k) {
     if constexpr (Kind.stress)
       // In single precision both sides of a pair go through the same code, so that they round alike.

@@ -1,5 +1,6 @@
 #pragma once
 /// The pass over the pairs that gives rates.
+#include "schemes/flux.hpp"
 #include "schemes/pair_pass_impl.hpp"
 
 namespace ejecta {

@@ -90,10 +90,10 @@ struct PairRecord {
                             const Surroundings<Dim>& around, std::vector<T>& contacts);
 
   /// Fills in the stress that acts on the partners. Reads pressure and where they exist deviatoric_stress and
-  /// damage_tensor. `intact` is the fraction of the deviator that damage leaves (empty: all of it).
+  /// damage_tensor and intact_share.
   /// `contacts` may be empty.
   static void pack_stress(const Particles<Dim>& particles, const std::vector<Image>& images, const PairRules& rules,
-                          std::span<const double> intact, const Surroundings<Dim>& around, std::vector<T>& records,
+                          const Surroundings<Dim>& around, std::vector<T>& records,
                           std::vector<T>& contacts);
 };
 

@@ -181,21 +181,20 @@ void PairRecord<T, Dim, Kind, Flux>::pack_contacts(const Particles<Dim>& particl
 
 template <class T, int Dim, RecordKind Kind, class Flux>
 void PairRecord<T, Dim, Kind, Flux>::pack_stress(const Particles<Dim>& particles, const std::vector<Image>& images,
-                                                 const PairRules& rules, std::span<const double> intact,
-                                                 const Surroundings<Dim>& around, std::vector<T>& records,
+                                                 const PairRules& rules, const Surroundings<Dim>& around, std::vector<T>& records,
                                                  std::vector<T>& contacts) {
   using R = PairRecord;
   const std::size_t n = particles.size();
   const auto pressure = particles.column(Field::pressure);
   const Columns<Dim, const double> deviatoric_stress(particles, Field::deviatoric_stress),
-      damage(particles, Field::damage_tensor);
+      damage(particles, Field::damage_tensor), intact_share(particles, Field::intact_share);
   parallel_for(0, n, [&](std::size_t i) {
     T* r = records.data() + i * R::size;
     const double expansion = static_cast<double>(r[R::expansion]), squared = expansion * expansion;
     if constexpr (!Kind.stress) {
       r[R::stress] = static_cast<T>(-squared * pressure[i]);
     } else {
-      const double scale = intact.empty() ? 1.0 : intact[i];
+      const double scale = intact_share.count ? intact_share(0, i) : 1.0;
       auto deviator = [&](std::size_t k) { return scale * deviatoric_stress(k, i); };
       Symmetric<Dim> s = Symmetric<Dim>::Zero();
       if (deviatoric_stress.count) {

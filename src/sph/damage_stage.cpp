@@ -107,7 +107,7 @@ void damage(Sph<Dim>& sph) {
     const Range range = p.material_ranges()[m];
     parallel_for(range.begin, range.end, [&](std::size_t i) {
       if (driven(p, sph.scene, i)) {
-        sph.intact[i] = 1;
+        p.column(Field::intact_share)[i] = 1;
         return;
       }
       double& broken = p.column(Field::damage)[i];
@@ -115,7 +115,7 @@ void damage(Sph<Dim>& sph) {
       // Nothing is left to grow where scalar damage is complete.
       if (broken >= 1 && !material.tensor_damage()) {
         pressure = damaged_pressure(pressure, 1);
-        sph.intact[i] = left_by(material, 1);
+        p.column(Field::intact_share)[i] = left_by(material, 1);
         return;
       }
       // Without a direction: crushed pores, and rock broken in shear.
@@ -131,7 +131,7 @@ void damage(Sph<Dim>& sph) {
       broken = total = std::clamp(total, broken, 1.0);
       pressure = damaged_pressure(pressure, total);
       // Cracks with a direction take the deviator away pair by pair.
-      sph.intact[i] = left_by(material, material.cuts_pairs() ? crushed : total);
+      p.column(Field::intact_share)[i] = left_by(material, material.cuts_pairs() ? crushed : total);
     });
   }
 }

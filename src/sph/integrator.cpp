@@ -8,19 +8,15 @@ namespace ejecta {
 
 namespace {
 
-struct StateAndRate {
-  Field state, rate;
-};
-/// But for motion, which is advanced by itself, and density, whose logarithm is.
-constexpr StateAndRate pairs[] = {{Field::specific_energy, Field::heating},
-                                  {Field::deviatoric_stress, Field::stress_rate}};
-
-/// Calls body(state, rate, component) for every component of every pair present.
+/// Calls body(state, rate, component) for every component of every pair present, but for motion, which is advanced by
+/// itself, and density, whose logarithm is.
 template <int Dim, class Body>
 void for_pair_columns(Particles<Dim>& particles, Body&& body) {
-  for (const auto& [state, rate] : pairs)
-    if (particles.has(state) && particles.has(rate))
-      for (int k = 0; k < components(info(state).shape, Dim); ++k) body(state, rate, k);
+  for (const FieldInfo& f : field_catalogue()) {
+    if (f.role != Role::rate || f.rate_of == Field::velocity || f.rate_of == Field::density) continue;
+    if (!particles.has(f.field) || !particles.has(f.rate_of)) continue;
+    for (int k = 0; k < components(f.shape, Dim); ++k) body(f.rate_of, f.field, k);
+  }
 }
 
 /// e^x to the fourth order of x (Pade), and positive for every x: whatever tears at it, no density falls below zero.

@@ -85,7 +85,7 @@ void summation_density(Sph<Dim>& sph) {
 
 template <int Dim>
 void pair_rates(Sph<Dim>& sph) {
-  sph.pass->rates(sph.particles, sph.lists, sph.intact);
+  sph.pass->rates(sph.particles, sph.lists);
 }
 
 template <int Dim>

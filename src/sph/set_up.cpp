@@ -94,15 +94,7 @@ void plant(Sph<Dim>& sph, const std::vector<Seedling<Dim>>& seedlings) {
   Particles<Dim>& p = sph.particles;
   const Scene& scene = sph.scene;
   std::vector<double> per_body(scene.bodies.size(), 0);
-  std::vector<Range> ranges(sph.materials.size(), Range{0, 0});
-  for (const auto& s : seedlings) {
-    per_body[static_cast<std::size_t>(s.body)] += 1;
-    for (std::size_t m = static_cast<std::size_t>(s.material); m < ranges.size(); ++m) {
-      ranges[m].end += 1;
-      if (m > static_cast<std::size_t>(s.material)) ranges[m].begin += 1;
-    }
-  }
-  p.set_material_ranges(ranges);
+  for (const auto& s : seedlings) per_body[static_cast<std::size_t>(s.body)] += 1;
   parallel_for(0, seedlings.size(), [&](std::size_t i) {
     const auto& s = seedlings[i];
     const Body& body = scene.bodies[static_cast<std::size_t>(s.body)];
@@ -146,7 +138,8 @@ void plant(Sph<Dim>& sph, const std::vector<Seedling<Dim>>& seedlings) {
       }
     }
   });
-  if (p.has(Field::damage)) sph.intact.assign(p.size(), 1.0);
+  p.set_material_ranges(ranges_of_materials(p.label(Label::material), sph.materials.size()));
+  if (p.has(Field::intact_share)) std::ranges::fill(p.column(Field::intact_share), 1.0);
 }
 
 }  // namespace

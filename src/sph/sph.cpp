@@ -76,7 +76,7 @@ Quantities Sph<Dim>::quantities() const {
 
 template <int Dim>
 std::size_t Sph<Dim>::bytes() const {
-  return particles.bytes() + lists.bytes() + pass->bytes() + intact.capacity() * sizeof(double);
+  return particles.bytes() + lists.bytes() + pass->bytes();
 }
 
 template <int Dim>

@@ -80,7 +80,6 @@ struct Sph final : Package {
   PairLists<Dim> lists;
   std::unique_ptr<PairPass<Dim>> pass;
   std::unique_ptr<SupportSize> support;
-  std::vector<double> intact;  ///< share of the deviator that damage leaves; empty without damage
   ShapeReport shape_report;
   double lists_built_at = 0;  ///< s
   std::int64_t list_builds = 0, sorts = 0;

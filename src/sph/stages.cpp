@@ -83,8 +83,8 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
                               scalar_cracks, {crack, local_strain}),
                      tensor_cracks, {damage_tensor, strain_history, velocity_gradient}),
             shears, {shear_damage}),
-        extended(extended({Field::damage, pressure}, scalar_cracks, {crack, local_strain}), tensor_cracks,
-                 {damage_tensor, strain_history}),
+        extended(extended({Field::damage, intact_share, pressure}, scalar_cracks, {crack, local_strain}),
+                 tensor_cracks, {damage_tensor, strain_history}),
         ejecta::damage<Dim>);
   add("pair rates",
       extended(extended(extended(extended({position, velocity, smoothing_length, mass, density, pressure, sound_speed},

@@ -98,12 +98,12 @@ porous = Case("elastic, pores", elastic, {**PORES, **material("porosity", crush_
               drops_stages=("bonds",), adds_columns=("distension", "stress_factor"), drops_columns=BONDS,
               other_bytes=-BONDED)
 crushed = Case("elastic, pores, damage by crushing", porous, material("porosity", crush_damage="true"),
-               adds_stages=("damage",), adds_columns=("damage",), other_bytes=INTACT)
+               adds_stages=("damage",), adds_columns=("damage", "intact_share"))
 rock = Case("elastic, rock", elastic, COLLINS, adds_stages=("strength",), drops_stages=("bonds",),
             adds_columns=("plastic_strain",), drops_columns=BONDS, other_bytes=-BONDED)
 sheared = Case("elastic, rock that breaks in shear", rock,
                material("strength", brittle_ductile="1.2 GPa", brittle_plastic="2.4 GPa"), adds_stages=("damage",),
-               adds_columns=("damage", "shear_damage"), other_bytes=INTACT)
+               adds_columns=("damage", "intact_share", "shear_damage"))
 pumice = Case("elastic, strength, damage, pores", brittle, PORES, adds_columns=("distension", "stress_factor"))
 
 CASES = [

@@ -85,7 +85,7 @@ template <int Dim>
 void pair_rates(benchmark::State& state, const flops::PairWork& work) {
   PairCase<Dim> c(work);
   Measurement measured(state);
-  measured.run([&] { c.pass->rates(c.sim.particles, c.lists, c.sim.intact); });
+  measured.run([&] { c.pass->rates(c.sim.particles, c.lists); });
   c.report(measured, work, flops::pair_reach(work), flops::pair_exchange(work));
 }
 

@@ -60,7 +60,7 @@ void expect_images_act_like_copies(const std::array<BoundaryKind, 3>& kinds, Pre
   settings.contacts = solid;
   Particles<Dim> all;
   const auto copies = with_copies(p, settings.rules.boundary, all);
-  const Reference<Dim> reference(all, settings, {}, copies);
+  const Reference<Dim> reference(all, settings, copies);
   const auto lists = run_rates(p, settings);
   ASSERT_GT(lists.images().size(), n / 4);
   for (std::size_t i = 0; i < n; ++i) {

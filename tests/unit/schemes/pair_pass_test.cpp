@@ -29,10 +29,9 @@ template <int Dim>
 Errors errors_against_reference(std::size_t n, const PairPassSettings& settings) {
   auto p = random_matter<Dim>(n, 21, settings.stress);
   sort_in_space(p, cluster_size(settings.precision));
-  std::vector<double> intact;
-  if (settings.stress) intact = random_shares(n, 22);
-  const Reference<Dim> reference(p, settings, intact);  // before the pass renews the gradients that it reads
-  run_rates(p, settings, intact);
+  if (settings.stress) std::ranges::copy(random_shares(n, 22), p.column(Field::intact_share).begin());
+  const Reference<Dim> reference(p, settings);  // before the pass renews the gradients that it reads
+  run_rates(p, settings);
   Errors worst;
   const auto keep_largest = [](double& largest, double error) { largest = std::max(largest, error); };
   for (std::size_t i = 0; i < n; ++i) {

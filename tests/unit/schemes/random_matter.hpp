@@ -36,7 +36,7 @@ Particles<Dim> random_matter(std::size_t n, unsigned seed, bool stress, double h
                             Field::sound_speed,      Field::heating,          Field::neighbour_sum,
                             Field::approach_speed,   Field::viscosity_factor, Field::velocity_gradient,
                             Field::shock_switch};
-  if (stress) fields.push_back(Field::deviatoric_stress);
+  if (stress) fields.insert(fields.end(), {Field::deviatoric_stress, Field::intact_share});
   fields.insert(fields.end(), more.begin(), more.end());
   Particles<Dim> p = random_cloud<Dim>(n, seed, spacing, h_spread * spacing, fields);
   Uniform uniform(seed + 1);
@@ -58,6 +58,7 @@ Particles<Dim> random_matter(std::size_t n, unsigned seed, bool stress, double h
           uniform(-1, 1) * 20 / spacing - (k % (Dim + 1) == 0 ? 30 / spacing : 0);
     for (int k = 0; stress && k < deviator_size<Dim>; ++k)
       p.column(Field::deviatoric_stress, k)[i] = uniform(-5e8, 5e8);
+    if (stress) p.column(Field::intact_share)[i] = 1;
     p.label(Label::material)[i] = p.label(Label::body)[i] = i < n / 3 ? 0 : 1;
   }
   p.set_material_ranges({{0, n / 3}, {n / 3, n}});
@@ -85,10 +86,10 @@ void split_in_two(Particles<Dim>& p, PairPassSettings& settings) {
 
 /// Lists and a pass for the particles as they are; returns the lists.
 template <int Dim>
-PairLists<Dim> run_rates(Particles<Dim>& p, const PairPassSettings& settings, std::span<const double> intact = {}) {
+PairLists<Dim> run_rates(Particles<Dim>& p, const PairPassSettings& settings) {
   PairLists<Dim> lists;
   lists.build(p, {kernel_support(settings.kernel), cluster_size(settings.precision), 0, settings.rules.boundary});
-  make_pair_pass<Dim>(settings)->rates(p, lists, intact);
+  make_pair_pass<Dim>(settings)->rates(p, lists);
   return lists;
 }
 

@@ -21,12 +21,12 @@ struct Sums {
   double acceleration_scale = 0, heating_scale = 0, gradient_scale = 0;
 };
 
-/// sigma = -P I + S of particle i; `intact` scales the deviator (empty: 1), cracks cut it.
+/// sigma = -P I + S of particle i; intact_share scales the deviator, cracks cut it.
 template <int Dim>
-Mat<Dim> stress_of(const Particles<Dim>& p, std::span<const double> intact, bool cracked, std::size_t i) {
+Mat<Dim> stress_of(const Particles<Dim>& p, bool cracked, std::size_t i) {
   Mat<Dim> s = Mat<Dim>::Zero();
   if (p.has(Field::deviatoric_stress)) {
-    const auto d = [&](int k) { return (intact.empty() ? 1 : intact[i]) * p.column(Field::deviatoric_stress, k)[i]; };
+    const auto d = [&](int k) { return (p.has(Field::intact_share) ? p.column(Field::intact_share)[i] : 1) * p.column(Field::deviatoric_stress, k)[i]; };
     if constexpr (Dim == 2)
       s << d(0), d(2), d(2), d(1);
     else
@@ -79,14 +79,14 @@ template <int Dim>
 class Reference {
  public:
   /// The first particles are those asked for; the others may be copies of them.
-  Reference(const Particles<Dim>& particles, const PairPassSettings& settings, std::span<const double> intact = {},
+  Reference(const Particles<Dim>& particles, const PairPassSettings& settings,
             std::vector<Copy<Dim>> copies = {})
       : p_(particles),
         settings_(settings),
         kernel_(functions_of(settings.kernel, Dim)),
         copies_(std::move(copies)),
         views_(particles.size()) {
-    look_around(intact);
+    look_around();
   }
 
   Sums<Dim> rates(std::size_t i) const {
@@ -225,7 +225,7 @@ class Reference {
     return q;
   }
 
-  void look_around(std::span<const double> intact) {
+  void look_around() {
     const std::size_t all = p_.size();
     const std::vector<int>& pieces = settings_.rules.pieces;
     for (std::size_t i = 0; i < all; ++i) {
@@ -262,7 +262,7 @@ class Reference {
         const Vec<Dim> scaled = (q.own ? weight(i, j) : share(i, j) * views_[j].V) * view.H.inverse() * q.g;
         (q.own ? view.squares : view.squares_of_others) += scaled.squaredNorm();
       }
-      const Mat<Dim> sigma = stress_of(p_, intact, settings_.cracked, i);
+      const Mat<Dim> sigma = stress_of(p_, settings_.cracked, i);
       const Inverse<Dim> own = inverse(view.moment, view.squares),
                          both = inverse(view.moment + view.others, view.squares + view.squares_of_others);
       const Vec<Dim>& n = view.normal;

@@ -135,7 +135,7 @@ void expect_growth_of_benz_and_asphaug() {
   EXPECT_NEAR(element.at(Field::damage_tensor), d, 1e-12);
   EXPECT_NEAR(element.at(Field::damage), d, 1e-12);
   EXPECT_NEAR(element.at(Field::pressure), -(1 - d) * sigma / 3, 1e-6 * sigma);
-  EXPECT_EQ(element.sim->intact[0], 1) << "the deviator is cut pair by pair";
+  EXPECT_EQ(element.sim->particles.column(Field::intact_share)[0], 1) << "the deviator is cut pair by pair";
 }
 
 TEST(TensorDamageStage, BenzAsphaugGrowsAsTheScalarModelUnderSteadyTension) {
@@ -155,7 +155,7 @@ TEST(TensorDamageStage, BrokenRockWithAFrictionLawYieldsByItsLargestEigenvalueAn
     e->at(Field::pressure) = 1e9;
     e->run(0);
     EXPECT_NEAR(e->at(Field::damage), 1, 1e-15);
-    EXPECT_EQ(e->sim->intact[0], 1);
+    EXPECT_EQ(e->sim->particles.column(Field::intact_share)[0], 1);
     e->at(Field::pressure) = 0;
     e->at(Field::deviatoric_stress, 2) = 1e6;
     strength(*e->sim);

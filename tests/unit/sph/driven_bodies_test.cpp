@@ -66,7 +66,7 @@ TEST(DrivenBodies, KeepTheirVelocityAndStayWhole) {
     }
     EXPECT_EQ(p.vector(Field::velocity, i), Vec<2>(body == 0 ? -200 : 200, 50));
     EXPECT_EQ(p.column(Field::damage)[i], 0);
-    EXPECT_EQ(sim->intact[i], 1);
+    EXPECT_EQ(sim->particles.column(Field::intact_share)[i], 1);
   }
   EXPECT_GT(most, 0.9) << "the rod breaks";
 }

@@ -109,7 +109,7 @@ TEST(DamageStage, CracksGrowInTensionOnlyAndTakeTensionAway) {
   damage(*probe.sim);
   EXPECT_EQ(probe.at(Field::crack), 0);
   EXPECT_EQ(probe.at(Field::damage), 0);
-  EXPECT_EQ(probe.sim->intact[0], 1);
+  EXPECT_EQ(probe.sim->particles.column(Field::intact_share)[0], 1);
 
   probe.at(Field::pressure) = -1e9;
   damage(*probe.sim);
@@ -128,7 +128,7 @@ TEST(DamageStage, CracksGrowInTensionOnlyAndTakeTensionAway) {
   damage(*probe.sim);
   EXPECT_NEAR(probe.at(Field::crack), 0.5, 1e-12);
   EXPECT_NEAR(probe.at(Field::damage), 0.125, 1e-12);
-  EXPECT_NEAR(probe.sim->intact[0], 0.875, 1e-12);
+  EXPECT_NEAR(probe.sim->particles.column(Field::intact_share)[0], 0.875, 1e-12);
   probe.sim->clock.dt *= 0.5;
   probe.at(Field::pressure) = 1e9;
   damage(*probe.sim);
@@ -144,7 +144,7 @@ TEST(DamageStage, CracksGrowInTensionOnlyAndTakeTensionAway) {
   damage(*probe.sim);
   EXPECT_EQ(probe.at(Field::damage), 1) << "what is broken stays broken";
   EXPECT_EQ(probe.at(Field::pressure), 0);
-  EXPECT_EQ(probe.sim->intact[0], 0);
+  EXPECT_EQ(probe.sim->particles.column(Field::intact_share)[0], 0);
 }
 
 TEST(DamageStage, PlasticStrainBreaksRock) {

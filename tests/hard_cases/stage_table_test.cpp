@@ -1,0 +1,123 @@
+/// The stage table says what each stage reads and writes: `ejecta check` prints it, columns exist because of it. Seen
+/// from outside, by what a stage does to columns that it does not name: whatever stands there must not matter and must
+/// stay.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include "material/material_reader.hpp"
+#include "scene/scene_reader.hpp"
+#include "sph/stages.hpp"
+
+namespace ejecta {
+namespace {
+
+constexpr double poison = 1.2345e300;
+
+/// Every column of a field, one after the other.
+template <int Dim>
+std::vector<double> content(const Particles<Dim>& p, Field f) {
+  std::vector<double> values;
+  for (int k = 0; k < components(info(f).shape, Dim); ++k)
+    values.insert(values.end(), p.column(f, k).begin(), p.column(f, k).end());
+  return values;
+}
+
+bool same(const std::vector<double>& a, const std::vector<double>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+}
+
+bool contains(const std::vector<Field>& list, Field f) { return std::ranges::find(list, f) != list.end(); }
+
+/// What is wrong with the table of a scene, stage by stage; `used` collects "stage: reads field" of what matters.
+template <int Dim>
+void compare(Sph<Dim>& sph, std::set<std::string>& wrong, std::set<std::string>& written) {
+  for (const Stage<Dim>& stage : sph.stages) {
+    const Particles<Dim> before = sph.particles;
+    stage.run(sph);
+    const Particles<Dim> after = sph.particles;
+    for (const Field f : before.fields())
+      if (!same(content(before, f), content(after, f))) {
+        written.insert(stage.name + " writes " + std::string(info(f).name));
+        if (!contains(stage.writes, f)) wrong.insert(stage.name + " writes " + std::string(info(f).name));
+      }
+    for (const Field hidden : before.fields()) {
+      if (contains(stage.reads, hidden) || contains(stage.writes, hidden)) continue;
+      sph.particles = before;
+      for (int k = 0; k < components(info(hidden).shape, Dim); ++k)
+        std::ranges::fill(sph.particles.column(hidden, k), poison);
+      sph.lists.invalidate();
+      try {
+        stage.run(sph);
+      } catch (const std::exception&) {
+        wrong.insert(stage.name + " reads " + std::string(info(hidden).name));
+      }
+      for (const Field f : before.fields())
+        if (f != hidden && !same(content(sph.particles, f), content(after, f)))
+          wrong.insert(stage.name + " reads " + std::string(info(hidden).name));
+    }
+    // A column that is written but not read must be filled, or left alone, whatever stood there.
+    for (const Field f : stage.writes) {
+      if (contains(stage.reads, f)) continue;
+      sph.particles = before;
+      for (int k = 0; k < components(info(f).shape, Dim); ++k) std::ranges::fill(sph.particles.column(f, k), poison);
+      sph.lists.invalidate();
+      stage.run(sph);
+      for (const Field g : before.fields()) {
+        if (g == f) {
+          const std::vector<double> now = content(sph.particles, f), first = content(after, f);
+          for (std::size_t i = 0; i < now.size(); ++i)
+            if (now[i] != first[i] && now[i] != poison) {
+              wrong.insert(stage.name + " reads " + std::string(info(f).name));
+              break;
+            }
+        } else if (!same(content(sph.particles, g), content(after, g))) {
+          wrong.insert(stage.name + " reads " + std::string(info(f).name));
+        }
+      }
+    }
+    sph.particles = after;
+    sph.lists.invalidate();
+  }
+}
+
+template <int Dim>
+void follow(const Scene& scene, std::set<std::string>& wrong, std::set<std::string>& written) {
+  const auto sph = set_up<Dim>(scene, read_materials(scene, EJECTA_SOURCE_DIR "/inputs/materials").list);
+  for (int k = 0; k < 12; ++k) sph->advance(sph->vote().dt);  // into the impact; a step on which nothing is sorted
+  compare(*sph, wrong, written);
+}
+
+/// A few hundred to a few thousand particles.
+std::vector<std::string> coarse(const std::string& name) {
+  const std::map<std::string, std::string> spacings{
+      {"basalt_impact", "4 mm"},    {"expanding_ring", "1 mm"}, {"pumice_impact", "5 mm"}, {"pumice_impact_2d", "3 mm"},
+      {"rubber_balls_3d", "4 mm"}, {"tensile_rod_2d", "0.5 mm"}, {"tensile_rod_3d", "0.7 mm"}};
+  const auto found = spacings.find(name);
+  return found == spacings.end() ? std::vector<std::string>{} : std::vector{"resolution.spacing=" + found->second};
+}
+
+TEST(StageTable, SaysWhatEachStageReadsAndWritesInEveryShippedScene) {
+  int scenes = 0;
+  std::set<std::string> written;
+  for (const auto& entry : std::filesystem::directory_iterator(EJECTA_SOURCE_DIR "/inputs")) {
+    if (entry.path().extension() != ".toml") continue;
+    const std::string name = entry.path().stem();
+    SCOPED_TRACE(name);
+    std::set<std::string> wrong;
+    const Scene scene = read_scene(entry.path(), coarse(name));
+    if (scene.dimension == 2)
+      follow<2>(scene, wrong, written);
+    else
+      follow<3>(scene, wrong, written);
+    for (const std::string& what : wrong) ADD_FAILURE() << what << ", says nothing of it";
+    ++scenes;
+  }
+  EXPECT_GE(scenes, 9);
+}
+
+}  // namespace
+}  // namespace ejecta
