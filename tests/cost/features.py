@@ -69,9 +69,9 @@ GRADY_KIPP = material("damage", model="grady_kipp", weibull_m=9.5, weibull_k="1.
 PORES = material("porosity", model="two_power", initial_distension=3.3242857142857143, elastic_pressure="1 MPa",
                  transition_pressure="68 MPa", solid_pressure="213 MPa", reference_distension=4.64,
                  transition_distension=1.90, n1=12, n2=3)
-# Beside columns: what damage leaves of the deviator; a number of the packed records, with room for an eighth more of
+# Beside columns: a number of the packed records, with room for an eighth more of
 # them; and the sums over the surroundings (two tensors, a vector and three numbers).
-INTACT, RECORDED, SURROUNDINGS = 8, 9, 8 * (9 + 9 + 2 + 3 + 1)
+RECORDED, SURROUNDINGS = 9, 8 * (9 + 9 + 2 + 3 + 1)
 BONDS = ("start_position", "bond", "stretch")
 # Images have records too: the gas of cost_test.py, 10 particles wide, has 3 more layers beyond each of its faces.
 WITH_IMAGES = 1.6**3
@@ -92,8 +92,8 @@ elastic = Case("elastic", FOLDER / "solid.toml", {},
                              "deviatoric_stress", "stress_rate"))
 plastic = Case("elastic, strength", elastic, VON_MISES, adds_stages=("strength",), drops_stages=("bonds",),
                adds_columns=("plastic_strain",), drops_columns=BONDS, other_bytes=-BONDED)
-brittle = Case("elastic, strength, damage", plastic, GRADY_KIPP, adds_stages=("damage",), adds_columns=CRACKS,
-               other_bytes=INTACT)
+brittle = Case("elastic, strength, damage", plastic, GRADY_KIPP, adds_stages=("damage",),
+               adds_columns=(*CRACKS, "intact_share"))
 porous = Case("elastic, pores", elastic, {**PORES, **material("porosity", crush_damage="false")},
               drops_stages=("bonds",), adds_columns=("distension", "stress_factor"), drops_columns=BONDS,
               other_bytes=-BONDED)
