@@ -21,6 +21,7 @@
 #include <limits>
 
 #include "base/errors.hpp"
+#include "base/json.hpp"
 #include "insitu/headless_window.hpp"
 #include "insitu/image_index.hpp"
 #include "insitu/insitu_log.hpp"
@@ -81,7 +82,7 @@ struct CatalystBridge::State {
 /// Hands the frame to ParaView: the settings through Python's environment, the data through the description.
 void CatalystBridge::State::publish(std::span<const Channel> channels, std::int64_t step, double time) {
   const std::string assignment =
-      "import os; os.environ['EJECTA_FRAME'] = " + json_string(frame_json(settings, channels)) + "\n";
+      "import os; os.environ['EJECTA_FRAME'] = " + to_json(frame_json(settings, channels)) + "\n";
   vtkPythonInterpreter::RunSimpleString(assignment.c_str());
   description->SetTimeData(time, step);
   description->ForceOutputOn();
