@@ -50,6 +50,7 @@ class KeepSignalHandlers {
 struct Script {
   std::string path;
   vtkSmartPointer<vtkCPPythonScriptV2Helper> module;
+  std::string problem;  ///< why it could not be imported
   bool has_failed = false;
 };
 
@@ -131,7 +132,10 @@ CatalystBridge::CatalystBridge(const std::vector<std::string>& scripts, Pipeline
   }
   constexpr double before_all_frames = -1;  // s
   state_->publish({}, -1, before_all_frames);
-  for (Script& script : state_->scripts) state_->import(script);  // one that fails is reported with the first frame
+  for (Script& script : state_->scripts) {
+    state_->redirection.log().clear();
+    if (!state_->import(script)) script.problem = state_->redirection.log().reason(script.path);
+  }
 }
 
 bool CatalystBridge::reads(const char* channel) const {
@@ -159,7 +163,9 @@ FrameReport CatalystBridge::execute(std::int64_t step, double time, std::span<co
                                 std::chrono::duration<double>(Clock::now() - start).count()});
     if (done) continue;
     ++state_->failures;
-    if (!script.has_failed) report.warnings.push_back(state_->redirection.log().reason(script.path));
+    if (!script.has_failed)
+      report.warnings.push_back(script.problem.empty() ? state_->redirection.log().reason(script.path)
+                                                       : script.problem);
     script.has_failed = true;
   }
   report.images = state_->index.add_new_images(step, time);
