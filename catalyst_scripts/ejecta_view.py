@@ -67,12 +67,11 @@ def readable_unit(unit, largest):
     """The unit to print numbers up to `largest` [unit] in, and what to multiply them by."""
     if unit in ("", "1"):
         return "", 1.0
-    prefixes = [(1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n")]
     if unit.startswith("kg") or largest <= 0 or not math.isfinite(largest):
         return unit, 1.0
     if unit == "m" and 0.01 <= largest < 1:
         return "cm", 100.0
-    for size, prefix in prefixes:
+    for size, prefix in settings()["prefixes"]:
         if largest >= size * 0.9999:
             return prefix + unit, 1.0 / size
     return unit, 1.0

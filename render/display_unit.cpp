@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -20,12 +19,6 @@ DisplayUnit display_unit(double magnitude, const std::string& unit) {
   if (unit == "1") return {1, ""};
   const bool prefixable = unit.find('^') == std::string::npos && !unit.starts_with("kg");
   if (!prefixable || !(std::abs(magnitude) > 0) || !std::isfinite(magnitude)) return {1, with_superscripts(unit)};
-  struct Prefix {
-    double factor;
-    const char* symbol;
-  };
-  static constexpr std::array<Prefix, 8> prefixes{
-      {{1e9, "G"}, {1e6, "M"}, {1e3, "k"}, {1, ""}, {1e-3, "m"}, {1e-6, "µ"}, {1e-9, "n"}, {1e-12, "p"}}};
   for (const Prefix& p : prefixes)
     if (std::abs(magnitude) >= p.factor * (1 - 1e-9)) return {p.factor, p.symbol + unit};
   return {1, unit};

@@ -8,6 +8,7 @@
 
 #include "base/errors.hpp"
 #include "render/csv_table.hpp"
+#include "render/display_unit.hpp"
 #include "render/process.hpp"
 
 namespace ejecta {
@@ -21,6 +22,15 @@ std::string quoted(const std::string& text) {
   std::string safe;
   for (const char c : text) safe += c == '"' || c == '\\' ? std::string{'\\', c} : std::string(1, c);
   return '"' + safe + '"';
+}
+
+/// What `text` makes of the prefix that suits m, as an expression of gnuplot.
+template <class Text>
+std::string by_size(Text text) {
+  std::string choice = text(prefixes.back());
+  for (std::size_t k = prefixes.size() - 1; k-- > 0;)
+    choice = fmt::format("m >= {:e} ? {} : {}", prefixes[k].factor, text(prefixes[k]), choice);
+  return choice;
 }
 
 std::string preamble(const std::string& name, const std::string& title, const std::string& subject) {
@@ -38,10 +48,12 @@ set style line 1 lc rgb '#2c728e' lw 2.2 pt 7 ps 0.35
 set style line 2 lc rgb '#e45a31' lw 2.2 pt 7 ps 0.35
 set style line 3 lc rgb '#5ec962' lw 2.2 pt 7 ps 0.35
 set style line 4 lc rgb '#8a226a' lw 2.2 pt 7 ps 0.35
-factor(m) = m >= 1 ? 1.0 : m >= 1e-3 ? 1e-3 : m >= 1e-6 ? 1e-6 : 1e-9
-prefix(m) = m >= 1 ? '' : m >= 1e-3 ? 'm' : m >= 1e-6 ? 'µ' : 'n'
+factor(m) = {}
+prefix(m) = {}
 )",
-                     name, quoted(title.empty() ? subject : title + ": " + subject));
+                     name, quoted(title.empty() ? subject : title + ": " + subject),
+                     by_size([](const Prefix& p) { return fmt::format("{:e}", p.factor); }),
+                     by_size([](const Prefix& p) { return fmt::format("'{}'", p.symbol); }));
 }
 
 /// Time in column 1, shown with a prefix that suits the last row.

@@ -22,6 +22,7 @@
 
 #include "base/data_folder.hpp"
 #include "base/errors.hpp"
+#include "base/json.hpp"
 #include "insitu/headless_window.hpp"
 #include "insitu/image_index.hpp"
 #include "insitu/insitu_log.hpp"
@@ -50,6 +51,7 @@ class KeepSignalHandlers {
 struct Script {
   std::string path;
   vtkSmartPointer<vtkCPPythonScriptV2Helper> module;
+  std::string problem;  ///< why it could not be imported
   bool has_failed = false;
 };
 
@@ -82,7 +84,7 @@ struct CatalystBridge::State {
 /// Hands the frame to ParaView: the settings through Python's environment, the data through the description.
 void CatalystBridge::State::publish(std::span<const Channel> channels, std::int64_t step, double time) {
   const std::string assignment =
-      "import os; os.environ['EJECTA_FRAME'] = " + json_string(frame_json(settings, channels)) + "\n";
+      "import os; os.environ['EJECTA_FRAME'] = " + to_json(frame_json(settings, channels)) + "\n";
   vtkPythonInterpreter::RunSimpleString(assignment.c_str());
   description->SetTimeData(time, step);
   description->ForceOutputOn();
@@ -131,7 +133,10 @@ CatalystBridge::CatalystBridge(const std::vector<std::string>& scripts, Pipeline
   }
   constexpr double before_all_frames = -1;  // s
   state_->publish({}, -1, before_all_frames);
-  for (Script& script : state_->scripts) state_->import(script);  // one that fails is reported with the first frame
+  for (Script& script : state_->scripts) {
+    state_->redirection.log().clear();
+    if (!state_->import(script)) script.problem = state_->redirection.log().reason(script.path);
+  }
 }
 
 bool CatalystBridge::reads(const char* channel) const {
@@ -159,7 +164,9 @@ FrameReport CatalystBridge::execute(std::int64_t step, double time, std::span<co
                                 std::chrono::duration<double>(Clock::now() - start).count()});
     if (done) continue;
     ++state_->failures;
-    if (!script.has_failed) report.warnings.push_back(state_->redirection.log().reason(script.path));
+    if (!script.has_failed)
+      report.warnings.push_back(script.problem.empty() ? state_->redirection.log().reason(script.path)
+                                                       : script.problem);
     script.has_failed = true;
   }
   report.images = state_->index.add_new_images(step, time);

@@ -3,30 +3,17 @@
 #include <vtkCPPythonPipeline.h>
 #include <vtkPythonInterpreter.h>
 
-#include <charconv>
-#include <cmath>
 #include <filesystem>
 #include <sstream>
 
 #include "base/data_folder.hpp"
 #include "base/errors.hpp"
+#include "base/json.hpp"
 #include "insitu/insitu_log.hpp"
+#include "render/display_unit.hpp"
 
 namespace ejecta {
 namespace {
-
-std::string number(double value) {
-  if (!std::isfinite(value)) return "null";
-  char buffer[32];
-  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
-}
-
-template <class Values, class Text>
-std::string json_list(const Values& values, Text text) {
-  std::string list = "[";
-  for (const auto& value : values) list += (list.size() > 1 ? "," : "") + text(value);
-  return list + ']';
-}
 
 std::map<std::string, std::string> units_of(std::span<const Channel> channels) {
   std::map<std::string, std::string> units;
@@ -41,16 +28,16 @@ std::string field_json(const std::string& unit, const FieldStyle& style) {
   std::vector<double> points;
   for (std::size_t k = 0; k < scale.values.size(); ++k)
     points.insert(points.end(), {scale.values[k], scale.colours[k].red, scale.colours[k].green, scale.colours[k].blue});
-  return "{\"unit\":" + json_string(unit) + ",\"label\":" + json_string(style.label) +
-         ",\"range\":" + (style.range ? json_list(std::array{range.min, range.max}, number) : "null") +
-         ",\"colours\":" + json_list(points, number) + '}';
+  return "{\"unit\":" + to_json(unit) + ",\"label\":" + to_json(style.label) +
+         ",\"range\":" + (style.range ? json_list(std::array{range.min, range.max}) : "null") +
+         ",\"colours\":" + json_list(points) + '}';
 }
 
 /// The message of the compiler for `path`, as file:line: text; empty if it compiles.
 std::string syntax_problem(const std::string& path) {
   LogRedirection redirection("");
   vtkPythonInterpreter::Initialize(0);
-  const std::string name = json_string(path);
+  const std::string name = to_json(path);
   const std::string check =
       "try:\n"
       "    with open(" +
@@ -101,39 +88,24 @@ void check_pipeline_scripts(const std::vector<std::string>& paths) {
   if (!problems.empty()) throw InputError(std::move(problems));
 }
 
-std::string json_string(std::string_view text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') {
-      result += '\\';
-      result += c;
-    } else if (static_cast<unsigned char>(c) < 0x20) {
-      constexpr char digits[] = "0123456789abcdef";
-      result += "\\u00";
-      result += digits[c >> 4];
-      result += digits[c & 15];
-    } else {
-      result += c;
-    }
-  }
-  return result + '"';
-}
-
 std::string frame_json(const PipelineSettings& s, std::span<const Channel> channels) {
   std::ostringstream out;
-  out << "{\"run_folder\":" << json_string(s.run_folder) << ",\"scene_title\":" << json_string(s.scene_title)
+  out << "{\"run_folder\":" << to_json(s.run_folder) << ",\"scene_title\":" << to_json(s.scene_title)
       << ",\"dimension\":" << s.dimension << ",\"image_size\":[" << s.image_width << ',' << s.image_height << ']'
-      << ",\"view_center\":[" << number(s.view_center[0]) << ',' << number(s.view_center[1]) << ','
-      << number(s.view_center[2]) << "],\"view_size\":" << number(s.view_size) << ",\"time_end\":" << number(s.time_end)
-      << ",\"particle_radius\":" << number(s.particle_radius)
-      << ",\"radius_per_smoothing_length\":" << number(s.radius_per_smoothing_length)
-      << ",\"nodes_per_h\":" << number(s.nodes_per_h) << ",\"kernel_support\":" << number(s.kernel_support)
-      << ",\"fragment_target\":" << json_string(s.fragment_target)
-      << ",\"slice_fields\":" << json_list(s.slice_fields, json_string) << ",\"fields\":{";
+      << ",\"view_center\":[" << to_json(s.view_center[0]) << ',' << to_json(s.view_center[1]) << ','
+      << to_json(s.view_center[2]) << "],\"view_size\":" << to_json(s.view_size)
+      << ",\"time_end\":" << to_json(s.time_end) << ",\"particle_radius\":" << to_json(s.particle_radius)
+      << ",\"radius_per_smoothing_length\":" << to_json(s.radius_per_smoothing_length)
+      << ",\"nodes_per_h\":" << to_json(s.nodes_per_h) << ",\"kernel_support\":" << to_json(s.kernel_support)
+      << ",\"fragment_target\":" << to_json(s.fragment_target) << ",\"prefixes\":"
+      << json_list(
+             prefixes,
+             [](const Prefix& p) { return '[' + to_json(p.factor) + ',' + to_json(std::string_view(p.symbol)) + ']'; })
+      << ",\"slice_fields\":" << json_list(s.slice_fields) << ",\"fields\":{";
   const char* separator = "";
   for (const auto& [name, unit] : units_of(channels)) {
     const auto style = s.styles.find(name);
-    out << separator << json_string(name) << ':'
+    out << separator << to_json(name) << ':'
         << field_json(unit, style == s.styles.end() ? plain_style(name) : style->second);
     separator = ",";
   }

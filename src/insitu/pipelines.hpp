@@ -49,7 +49,4 @@ void check_pipeline_scripts(const std::vector<std::string>& paths);
 /// there is none.
 std::string frame_json(const PipelineSettings& settings, std::span<const Channel> channels);
 
-/// `text` between quotes, escaped for JSON (and for Python, whose strings have the same escapes).
-std::string json_string(std::string_view text);
-
 }  // namespace ejecta

@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "output/atomic_file.hpp"
-#include "output/json.hpp"
+#include "base/json.hpp"
 
 namespace ejecta {
 
@@ -18,16 +18,6 @@ constexpr std::array state_names{"running", "finished", "stopped", "failed"};
 
 /// Enough digits for a plot, and few bytes.
 std::string short_json(double value) { return std::isfinite(value) ? fmt::format("{:.7g}", value) : "null"; }
-
-template <class Items, class Text>
-std::string json_list(const Items& items, Text&& text) {
-  std::string list;
-  for (const auto& item : items) {
-    if (!list.empty()) list += ',';
-    list += text(item);
-  }
-  return '[' + list + ']';
-}
 
 std::string series_json(const MonitorSeries& s) {
   const std::vector<std::size_t> rows = telling_rows(s.values, most_points);

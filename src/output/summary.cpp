@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "output/atomic_file.hpp"
-#include "output/json.hpp"
+#include "base/json.hpp"
 
 namespace ejecta {
 

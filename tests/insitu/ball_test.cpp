@@ -34,8 +34,10 @@ class Ball : public testing::Test {
                                            "options = catalyst.Options()\n"
                                            "def catalyst_execute(info):\n"
                                            "    raise ValueError('out of luck')\n";
+    std::ofstream(folder + "/fails_at_once.py") << "# script-version: 2.0\n"
+                                                   "raise ValueError('out of luck at once')\n";
     std::vector<std::string> scripts = default_pipelines(true);
-    scripts.insert(scripts.begin(), {folder + "/fails.py", folder + "/mine.py"});
+    scripts.insert(scripts.begin(), {folder + "/fails.py", folder + "/mine.py", folder + "/fails_at_once.py"});
     check_pipeline_scripts(scripts);
     signal(SIGINT, own_handler);
     const ShatteredBall young(3000, 20, 100, 0.1), old(3000, 20, 100, 0.3);
@@ -61,7 +63,7 @@ TEST_F(Ball, EveryViewHasAnImageEachFrame) {
                                           image("mine_000025.png"), image("slice_000025.png")};
   EXPECT_EQ(second.images, expected);
   EXPECT_EQ(first.images.size(), 4u);
-  EXPECT_EQ(second.pipelines.size(), 5u);
+  EXPECT_EQ(second.pipelines.size(), 6u);
 }
 
 TEST_F(Ball, ImagesHaveTheSceneSizeAndShowTheObjectWithinTheFrame) {
@@ -105,10 +107,11 @@ TEST_F(Ball, AUsersExtractorWritesIntoTheRunFolder) {
 }
 
 TEST_F(Ball, AFailingScriptIsReportedOnceAndTheOthersGoOn) {
-  ASSERT_EQ(first.warnings.size(), 1u);
+  ASSERT_EQ(first.warnings.size(), 2u);
   EXPECT_EQ(first.warnings[0], folder + "/fails.py:5: ValueError: out of luck");
+  EXPECT_EQ(first.warnings[1], folder + "/fails_at_once.py:2: ValueError: out of luck at once");
   EXPECT_TRUE(second.warnings.empty());
-  EXPECT_EQ(failures, 2);
+  EXPECT_EQ(failures, 4);
   std::ostringstream log;
   log << std::ifstream(folder + "/insitu.log").rdbuf();
   EXPECT_NE(log.str().find("ValueError: out of luck"), std::string::npos);

@@ -10,7 +10,7 @@
 
 namespace ejecta {
 
-/// Quoted and escaped; UTF-8 passes through.
+/// Quoted and escaped, for Python too, whose strings have the same escapes; UTF-8 passes through.
 inline std::string to_json(std::string_view text) {
   std::string quoted = "\"";
   for (const char c : text) {
@@ -28,6 +28,18 @@ inline std::string to_json(std::string_view text) {
 inline std::string to_json(double value) { return std::isfinite(value) ? fmt::format("{}", value) : "null"; }
 
 inline std::string to_json(std::integral auto value) { return fmt::format("{}", value); }
+
+/// [1,2,3]: of what to_json knows, or of JSON texts made by `text(value)`.
+template <class Values, class Text>
+std::string json_list(const Values& values, Text text) {
+  std::string list = "[";
+  for (const auto& value : values) list += (list.size() > 1 ? "," : "") + text(value);
+  return list + ']';
+}
+template <class Values>
+std::string json_list(const Values& values) {
+  return json_list(values, [](const auto& value) { return to_json(value); });
+}
 
 /// null if there is no value.
 template <class T>
