@@ -30,6 +30,7 @@ void persist(Archive& archive, Clock& clock, Totals& initial, ExternalLoad& exte
   vector(archive, "external_angular_impulse", digits, external.angular_impulse);
   archive.number("external_power", external.power);
   archive.number("external_work", external.work);
+  if (archive.has("external_mass")) archive.number("external_mass", external.mass);
 }
 
 }  // namespace ejecta

@@ -24,6 +24,7 @@ struct ExternalLoad {
   Vec<3> impulse = Vec<3>::Zero();          ///< since the start [kg m/s]
   Vec<3> angular_impulse = Vec<3>::Zero();  ///< since the start, about the origin [kg m^2/s]
   double work = 0;                          ///< since the start [J]
+  double mass = 0;                          ///< added since the start [kg] (kg/m in plane strain)
   ExternalLoad& operator+=(const ExternalLoad& o);
 };
 

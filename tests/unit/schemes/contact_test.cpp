@@ -60,7 +60,7 @@ TEST(Contact, NoBitDependsOnHowFarTheListsReach) {
       sort_in_space(p, cluster_size(precision));
       PairLists<2> lists;
       lists.build(p, {kernel_support(settings.kernel), cluster_size(precision), horizon, {}});
-      make_pair_pass<2>(settings)->rates(p, lists, {});
+      make_pair_pass<2>(settings)->rates(p, lists);
       results.push_back(std::move(p));
     }
     for (const Field f : {Field::acceleration, Field::heating, Field::velocity_gradient, Field::neighbour_sum})

@@ -26,7 +26,7 @@ Particles<2> with_acoustic_flux(const PairPassSettings& settings) {
   sort_in_space(p, cluster_size(settings.precision));
   PairLists<2> lists;
   lists.build(p, {kernel_support(settings.kernel), cluster_size(settings.precision), 0, {}});
-  PairPassOf<T, 2, gas, WendlandC2, AcousticFlux>(settings).rates(p, lists, {});
+  PairPassOf<T, 2, gas, WendlandC2, AcousticFlux>(settings).rates(p, lists);
   return p;
 }
 
