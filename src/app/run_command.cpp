@@ -94,7 +94,7 @@ int run_in(const Job& job) {
     spdlog::info("restarted from {} at t = {}", checkpoint->file.filename().string(), format_quantity(*resume_at, "s"));
     checkpoint.reset();  // as large as the particles
   }
-  Frames<Dim> frames(sph, job.folder, job.catalyst);
+  Frames<Dim> frames(sim, sph, job.folder, job.catalyst);
   if (job.restart) frames.resume();
   const FragmentContext context = fragment_context(sph);
   Tables tables(job.scene, job.folder, frames, context, resume_at);

@@ -88,9 +88,11 @@ void CatalystBridge::State::publish(std::span<const Channel> channels, std::int6
   vtkPythonInterpreter::RunSimpleString(assignment.c_str());
   description->SetTimeData(time, step);
   description->ForceOutputOn();
-  for (const char* name : channel_names) {
-    description->AddInput(name);
-    vtkCPInputDataDescription* input = description->GetInputDescriptionByName(name);
+  std::vector<std::string> names(channel_names.begin(), channel_names.end());
+  names.insert(names.end(), settings.more_channels.begin(), settings.more_channels.end());
+  for (const std::string& name : names) {
+    description->AddInput(name.c_str());
+    vtkCPInputDataDescription* input = description->GetInputDescriptionByName(name.c_str());
     input->AllFieldsOn();
     input->GenerateMeshOn();
     const auto channel = std::ranges::find(channels, name, &Channel::name);

@@ -34,7 +34,7 @@ class CatalystBridge {
   CatalystBridge(const CatalystBridge&) = delete;
   CatalystBridge& operator=(const CatalystBridge&) = delete;
 
-  /// Has a script registered a source of this channel (one of channel_names)? Channels that nobody reads need not be
+  /// Has a script registered a source of this channel (of channel_names, or one more of the settings)? Channels that nobody reads need not be
   /// made.
   bool reads(const char* channel) const;
 

@@ -14,6 +14,7 @@ namespace ejecta {
 
 /// Everything a pipeline may want to know, fixed for a run so that frames do not flicker.
 struct PipelineSettings {
+  std::vector<std::string> more_channels;  ///< that there may be beside channel_names
   std::string run_folder;  ///< images go to <run_folder>/images
   std::string scene_title;
   int dimension = 3;

@@ -50,6 +50,8 @@ class Package {
   /// Sums over its present state; what acts on it from outside is in `external`.
   virtual Totals conserved() const = 0;
   virtual Kept kept() const { return {}; }
+  /// Whether loads from outside may act on it.
+  virtual bool is_loaded() const { return false; }
   /// Everything from which it goes on bit for bit, but for clock and ledger, which every package has.
   virtual void persist(Archive& archive) = 0;
 
@@ -57,6 +59,8 @@ class Package {
   /// What it does, for `ejecta check`: lines of text.
   virtual std::string outline() const { return ""; }
   virtual std::vector<Remark> remarks() const { return {}; }
+  /// Channels that it has, by name.
+  virtual std::vector<std::string> channel_names() const { return {}; }
   /// Live fields for the in-situ pipelines, of the channels that are asked for; the views are good until the next step.
   virtual std::vector<Channel> channels(const Asked&) const { return {}; }
   /// Of a culprit, for messages.

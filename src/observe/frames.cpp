@@ -46,7 +46,7 @@ double insitu_seconds(const StageTimers& timers) {
 }
 
 template <int Dim>
-Frames<Dim>::Frames(const Sph<Dim>& sph, std::filesystem::path folder, bool catalyst)
+Frames<Dim>::Frames(const Simulation& sim, const Sph<Dim>& sph, std::filesystem::path folder, bool catalyst)
     : sph_(sph),
       folder_(std::move(folder)),
       view_(choose_view(sph.scene)),
@@ -57,9 +57,12 @@ Frames<Dim>::Frames(const Sph<Dim>& sph, std::filesystem::path folder, bool cata
   std::filesystem::create_directories(folder_ / "images");
   if (!catalyst) return;
   const Scene& scene = sph.scene;
-  bridge_ = std::make_unique<CatalystBridge>(
-      pipeline_scripts(scene.insitu.pipelines, scene.fragments.enabled),
-      pipeline_settings(sph, folder_, view_, field_styles(scene, sph.materials, sph.outset)));
+  PipelineSettings settings =
+      pipeline_settings(sph, folder_, view_, field_styles(scene, sph.materials, sph.outset));
+  for (const auto& package : sim.packages)
+    for (const std::string& name : package->channel_names()) settings.more_channels.push_back(name);
+  bridge_ = std::make_unique<CatalystBridge>(pipeline_scripts(scene.insitu.pipelines, scene.fragments.enabled),
+                                             std::move(settings));
 }
 
 template <int Dim>

@@ -45,7 +45,7 @@ class Frames final : public FrameResults {
  public:
   /// Pictures of `sph`, which outlives this. With `catalyst` images are drawn by the pipelines, otherwise by Ejecta's own
   /// painter.
-  Frames(const Sph<Dim>& sph, std::filesystem::path folder, bool catalyst);
+  Frames(const Simulation& sim, const Sph<Dim>& sph, std::filesystem::path folder, bool catalyst);
 
   double next_time() const override { return schedule_.next(); }
   void observe(Simulation& sim, bool last) override;

@@ -32,7 +32,10 @@ void Status::gather(const Simulation& sim) {
     status_.eta_s = (status_.wall_s - first_wall_) * (status_.time_end - sim.clock.time) / done;
   for (const Quantity& q : quantities(sim, frames_, context_)) {
     if (!q.plotted) continue;
-    const double value = std::get<double>(q.value);
+    const auto* number = std::get_if<double>(&q.value);
+    const auto* count = std::get_if<std::int64_t>(&q.value);
+    if (!number && !count) continue;  // a word
+    const double value = number ? *number : static_cast<double>(*count);
     status_.record(q.name, q.unit, sim.clock.time, value);
     if (q.name == "energy error") status_.energy_error = value;
     if (q.name == "angular momentum error") status_.angular_momentum_error = value;

@@ -105,7 +105,7 @@ struct FragmentSettings {
       1.4;  ///< spacing: in mean particle sizes (m/rho)^(1/Dim); support: in h / nodes_per_h along each axis
   double damage_threshold = 0.99;  ///< particles damaged beyond this link to nothing (dust)
   int min_particles = 8;           ///< smaller groups count as dust
-  std::string target;              ///< body whose pieces count; empty: the body struck (simulation/outset.hpp)
+  std::string target;              ///< body whose pieces count; empty: the body struck (sph/outset.hpp)
 };
 
 struct OutputSettings {

@@ -22,8 +22,8 @@ Quantities quantities(const Simulation& sim) {
                   {"kinetic energy", energy, now.kinetic, "of everything", true},
                   {"internal energy", energy, now.internal, "of everything", true},
                   {"total energy", energy, now.energy(), "kinetic and internal"}};
-  auto driven = [](const Body& body) { return body.driven; };
-  if (std::ranges::any_of(sim.scene.bodies, driven))
+  auto loaded = [](const auto& package) { return package->is_loaded(); };
+  if (std::ranges::any_of(sim.packages, loaded))
     list.push_back({"external work", energy, external(sim).work, "on driven bodies"});
   list.push_back({"energy error", "1", errors.energy,
                   "(total - initial total - external work) / the largest of initial total, initial kinetic, work", true});

@@ -51,6 +51,11 @@ Kept Sph<Dim>::kept() const {
 }
 
 template <int Dim>
+bool Sph<Dim>::is_loaded() const {
+  return std::ranges::any_of(scene.bodies, &Body::driven);
+}
+
+template <int Dim>
 Quantities Sph<Dim>::quantities() const {
   const Particles<Dim>& p = particles;
   auto extreme = [&](Field f, double sign) {

@@ -59,6 +59,7 @@ struct Sph final : Package {
   void check_health() const override;
   Totals conserved() const override;
   Kept kept() const override;
+  bool is_loaded() const override;
   void persist(Archive& archive) override;
   Quantities quantities() const override;
   std::string outline() const override;

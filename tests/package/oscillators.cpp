@@ -51,6 +51,8 @@ class Oscillators final : public Package {
     archive.column("heat", "J", heat_);
   }
   Quantities quantities() const override { return {{"displacement", "m", x_[0], "of the first oscillator", true}}; }
+  bool is_loaded() const override { return true; }  // by the anchors
+  std::vector<std::string> channel_names() const override { return {"oscillators"}; }
   std::vector<Channel> channels(const Asked& asked) const override {
     if (!asked("oscillators")) return {};
     Channel channel{.name = "oscillators", .count = n(), .position = {x_, v_, heat_}, .fields = {}, .indices = {}};
