@@ -12,6 +12,16 @@ bool holds(Switch choice, const std::vector<Material>& materials) {
   return choice == Switch::on || (choice == Switch::automatic && !std::all_of(materials.begin(), materials.end(), gas));
 }
 
+/// Fields of a stage: those that it always has, with those that a scene may bring.
+struct Fields {
+  std::vector<Field> list;
+  Fields(std::initializer_list<Field> always) : list(always) {}
+  Fields& with(bool condition, std::initializer_list<Field> more) {
+    if (condition) list.insert(list.end(), more);
+    return *this;
+  }
+};
+
 }  // namespace
 
 bool corrects_gradients(const Scene& scene, const std::vector<Material>& materials) {
@@ -34,6 +44,10 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
   const bool tensor_cracks = any([](const Material& m) { return m.tensor_damage(); });
   const bool coupled = any([](const Material& m) { return m.cuts_pairs(); });
   const bool dealt = any([](const Material& m) { return m.damage && m.damage->growth == CrackLaw::benz_asphaug; });
+  const bool hardening = any([](const Material& m) {
+    const auto hardens_of = [](const auto& model) { return hardens<std::decay_t<decltype(model)>>; };
+    return m.solid() && m.strength && !m.variable_shear() && std::visit(hardens_of, *m.strength);
+  });
   const bool driven = std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) { return b.driven; });
   const bool continuity = scene.numerics.density == DensityMethod::continuity;
   const bool balsara = holds(scene.numerics.balsara, materials);
@@ -44,73 +58,89 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
   const bool gradient = solid || continuity || balsara || switched || tensor || corrects_gradients(scene, materials);
 
   std::vector<Stage<Dim>> stages;
-  auto add = [&](std::string name, std::vector<Field> reads, std::vector<Field> writes,
-                 std::function<void(Sph<Dim>&)> run) {
-    stages.push_back({std::move(name), std::move(reads), std::move(writes), std::move(run)});
+  auto add = [&](std::string name, Fields reads, Fields writes, std::function<void(Sph<Dim>&)> run) {
+    stages.push_back({std::move(name), std::move(reads.list), std::move(writes.list), std::move(run)});
   };
-  auto extended = [](std::vector<Field> fields, bool condition, std::initializer_list<Field> more) {
-    if (condition) fields.insert(fields.end(), more);
-    return fields;
-  };
-
   if (tensor)
-    add("carried smoothing", {velocity_gradient, smoothing_metric}, {smoothing_metric, smoothing_length},
-        carry_smoothing<Dim>);
-  add("neighbours", {position, velocity, smoothing_length, mass}, {}, neighbours<Dim>());
+    add("carried smoothing", Fields{velocity_gradient, smoothing_metric}.with(bonded, {bond}),
+        {smoothing_metric, smoothing_length}, carry_smoothing<Dim>);
+  add("neighbours", Fields{position, velocity, smoothing_length}.with(tensor, {smoothing_metric}),
+      Fields{}.with(bounded(scene.boundary), {position, velocity}), neighbours<Dim>());
   if (tensor)
-    add("shapes", {position, mass, smoothing_length, smoothing_metric},
+    add("shapes", Fields{position, mass, smoothing_length, smoothing_metric}.with(bonded, {bond}),
         {smoothing_length, smoothing_metric, neighbour_sum}, vote_shapes<Dim>());
   if (!continuity)
     add("density", {position, smoothing_length, mass}, {density, neighbour_sum, smoothing_length},
         summation_density<Dim>);
-  add("equation of state", extended({density, specific_energy}, porous, {distension}),
-      extended(extended({pressure, sound_speed}, porous,
-                        solid ? std::initializer_list<Field>{distension, stress_factor}
-                              : std::initializer_list<Field>{distension}),
-               variable_shear, {shear_modulus}),
+  add("equation of state", Fields{density, specific_energy}.with(porous, {distension}),
+      Fields{pressure, sound_speed}
+          .with(porous, {distension})
+          .with(porous && solid, {stress_factor})
+          .with(variable_shear, {shear_modulus}),
       equation_of_state<Dim>);
   if (yields)
     add("strength",
-        extended(extended({deviatoric_stress, pressure, specific_energy}, breaks, {Field::damage}), variable_shear,
-                 {shear_modulus}),
-        extended({deviatoric_stress, plastic_strain}, shears, {shear_damage}), strength<Dim>);
-  if (bonded) add("bonds", extended({stretch, density}, yields, {plastic_strain}), {bond}, bonds<Dim>);
+        Fields{deviatoric_stress, pressure, specific_energy, plastic_strain}
+            .with(hardening, {density})
+            .with(porous, {distension})
+            .with(breaks, {Field::damage})
+            .with(shears, {shear_damage})
+            .with(variable_shear, {shear_modulus}),
+        Fields{deviatoric_stress, plastic_strain}.with(shears, {shear_damage}), strength<Dim>);
+  if (bonded)
+    add("bonds", Fields{stretch, density, bond}.with(yields, {plastic_strain}), {bond}, bonds<Dim>);
   if (breaks)
     add("damage",
-        extended(
-            extended(extended(extended(extended({pressure, deviatoric_stress, density, mass}, grady_kipp, {flaw_strain}),
-                                       dealt, {flaw_exponent, flaw_count, smoothing_length}),
-                              scalar_cracks, {crack, local_strain}),
-                     tensor_cracks, {damage_tensor, strain_history, velocity_gradient}),
-            shears, {shear_damage}),
-        extended(extended({Field::damage, intact_share, pressure}, scalar_cracks, {crack, local_strain}),
-                 tensor_cracks, {damage_tensor, strain_history}),
+        Fields{Field::damage, pressure}
+            .with(crushes || porous, {distension})
+            .with(shears, {shear_damage})
+            .with(grady_kipp, {deviatoric_stress, density, mass, sound_speed, flaw_strain})
+            .with(dealt, {flaw_exponent, flaw_count})
+            .with(dealt && (scalar_cracks || !tensor), {smoothing_length})
+            .with(dealt && tensor_cracks && tensor, {smoothing_metric})
+            .with(scalar_cracks, {crack, local_strain})
+            .with(tensor_cracks, {damage_tensor, strain_history})
+            .with(tensor_cracks && !coupled, {velocity_gradient})
+            .with(coupled, {coupled_gradient}),
+        Fields{Field::damage, intact_share, pressure}
+            .with(scalar_cracks, {crack, local_strain})
+            .with(tensor_cracks, {damage_tensor, strain_history}),
         ejecta::damage<Dim>);
   add("pair rates",
-      extended(extended(extended(extended({position, velocity, smoothing_length, mass, density, pressure, sound_speed},
-                                          solid, {deviatoric_stress}),
-                                 balsara, {viscosity_factor}),
-                        switched, {shock_switch, velocity_gradient}),
-               bonded, {start_position, bond}),
-      extended(extended(extended({acceleration, heating, neighbour_sum, approach_speed}, gradient, {velocity_gradient}),
-                        coupled, {coupled_gradient}),
-               bonded, {stretch}),
+      Fields{position, velocity, smoothing_length, mass, density, pressure, sound_speed}
+          .with(tensor, {smoothing_metric})
+          .with(solid, {deviatoric_stress})
+          .with(breaks, {intact_share})
+          .with(coupled, {damage_tensor})
+          .with(gradient, {velocity_gradient})
+          .with(balsara, {viscosity_factor})
+          .with(switched, {Field::shock_switch})
+          .with(bonded, {start_position, bond}),
+      Fields{acceleration, heating, neighbour_sum, approach_speed}
+          .with(gradient, {velocity_gradient})
+          .with(coupled, {coupled_gradient})
+          .with(bonded, {stretch}),
       pair_rates<Dim>);
-  if (driven) add("driven bodies", {acceleration, velocity, mass}, {acceleration}, driven_bodies<Dim>);
+  if (driven) add("driven bodies", {acceleration, velocity, mass, position}, {acceleration}, driven_bodies<Dim>);
   if (continuity || solid)
     add("strain rates",
-        extended(extended(extended({velocity_gradient, density}, continuity, {neighbour_sum, smoothing_length, mass}),
-                          solid, {deviatoric_stress}),
-                 variable_shear, {shear_modulus}),
-        extended(extended({}, continuity, {compression_rate, density}), solid, {stress_rate}), strain_rates<Dim>);
+        Fields{velocity_gradient}
+            .with(continuity, {density, neighbour_sum, smoothing_length, mass, specific_energy, sound_speed})
+            .with(solid, {deviatoric_stress})
+            .with(porous && solid, {distension, stress_factor})
+            .with(coupled, {coupled_gradient})
+            .with(variable_shear, {shear_modulus}),
+        Fields{}.with(continuity, {compression_rate, density}).with(solid, {stress_rate}), strain_rates<Dim>);
   if (balsara || switched)
-    add("viscosity switches", {velocity_gradient, sound_speed, smoothing_length},
-        extended(extended({}, balsara, {viscosity_factor}), switched, {Field::shock_switch}),
-        viscosity_switches<Dim>);
+    add("viscosity switches",
+        Fields{velocity_gradient, sound_speed, smoothing_length}.with(switched, {Field::shock_switch}),
+        Fields{}.with(balsara, {viscosity_factor}).with(switched, {Field::shock_switch}), viscosity_switches<Dim>);
   if (continuity && scene.numerics.smoothing_growth > 1)
-    add("smoothing lengths", {neighbour_sum, smoothing_length, mass}, {smoothing_length}, smoothing_lengths<Dim>);
+    add("smoothing lengths",
+        Fields{neighbour_sum, smoothing_length}.with(tensor, {smoothing_metric}).with(bonded, {bond}),
+        Fields{smoothing_length}.with(tensor, {smoothing_metric}), smoothing_lengths<Dim>);
   if (scene.output.peaks)
-    add("peaks", {position, pressure, specific_energy, density},
+    add("peaks", {position, pressure, specific_energy, density, pressure_peak, specific_energy_peak, density_low},
         {pressure_peak, specific_energy_peak, density_low, initial_position}, peaks<Dim>);
   return stages;
 }

@@ -32,24 +32,35 @@ bool same(const std::vector<double>& a, const std::vector<double>& b) {
 
 bool contains(const std::vector<Field>& list, Field f) { return std::ranges::find(list, f) != list.end(); }
 
-/// What is wrong with the table of a scene, stage by stage; `used` collects "stage: reads field" of what matters.
+/// "density reads mass": what a table does not say and should, what it says, and what of that was seen to matter.
+struct Findings {
+  std::set<std::string> wrong, said, mattered;
+};
+
 template <int Dim>
-void compare(Sph<Dim>& sph, std::set<std::string>& wrong, std::set<std::string>& written) {
+void compare(Sph<Dim>& sph, Findings& findings) {
+  auto& [wrong, said, mattered] = findings;
   for (const Stage<Dim>& stage : sph.stages) {
     const Particles<Dim> before = sph.particles;
+    const PairLists<Dim> lists = sph.lists;
+    const double built_at = sph.lists_built_at;
+    const auto begin_again = [&] {
+      sph.particles = before;
+      sph.lists = lists;
+      sph.lists_built_at = built_at;
+    };
     stage.run(sph);
     const Particles<Dim> after = sph.particles;
     for (const Field f : before.fields())
       if (!same(content(before, f), content(after, f))) {
-        written.insert(stage.name + " writes " + std::string(info(f).name));
+        mattered.insert(stage.name + " writes " + std::string(info(f).name));
         if (!contains(stage.writes, f)) wrong.insert(stage.name + " writes " + std::string(info(f).name));
       }
     for (const Field hidden : before.fields()) {
       if (contains(stage.reads, hidden) || contains(stage.writes, hidden)) continue;
-      sph.particles = before;
+      begin_again();
       for (int k = 0; k < components(info(hidden).shape, Dim); ++k)
         std::ranges::fill(sph.particles.column(hidden, k), poison);
-      sph.lists.invalidate();
       try {
         stage.run(sph);
       } catch (const std::exception&) {
@@ -59,12 +70,31 @@ void compare(Sph<Dim>& sph, std::set<std::string>& wrong, std::set<std::string>&
         if (f != hidden && !same(content(sph.particles, f), content(after, f)))
           wrong.insert(stage.name + " reads " + std::string(info(hidden).name));
     }
+    for (const Field f : stage.writes) said.insert(stage.name + " writes " + std::string(info(f).name));
+    // What is said to be read must matter somewhere.
+    for (const Field f : stage.reads) {
+      const std::string name = stage.name + " reads " + std::string(info(f).name);
+      said.insert(name);
+      if (contains(stage.writes, f)) mattered.insert(name);
+      for (const double factor : {0.7, 0.0}) {
+        if (mattered.contains(name)) break;
+        begin_again();
+        for (int k = 0; k < components(info(f).shape, Dim); ++k)
+          for (double& value : sph.particles.column(f, k)) value *= factor;
+        try {
+          stage.run(sph);
+        } catch (const std::exception&) {
+          mattered.insert(name);
+        }
+        for (const Field g : before.fields())
+          if (g != f && !same(content(sph.particles, g), content(after, g))) mattered.insert(name);
+      }
+    }
     // A column that is written but not read must be filled, or left alone, whatever stood there.
     for (const Field f : stage.writes) {
       if (contains(stage.reads, f)) continue;
-      sph.particles = before;
+      begin_again();
       for (int k = 0; k < components(info(f).shape, Dim); ++k) std::ranges::fill(sph.particles.column(f, k), poison);
-      sph.lists.invalidate();
       stage.run(sph);
       for (const Field g : before.fields()) {
         if (g == f) {
@@ -79,44 +109,55 @@ void compare(Sph<Dim>& sph, std::set<std::string>& wrong, std::set<std::string>&
         }
       }
     }
-    sph.particles = after;
-    sph.lists.invalidate();
+    begin_again();
+    stage.run(sph);
   }
 }
 
 template <int Dim>
-void follow(const Scene& scene, std::set<std::string>& wrong, std::set<std::string>& written) {
+void follow(const Scene& scene, Findings& findings) {
   const auto sph = set_up<Dim>(scene, read_materials(scene, EJECTA_SOURCE_DIR "/inputs/materials").list);
-  for (int k = 0; k < 12; ++k) sph->advance(sph->vote().dt);  // into the impact; a step on which nothing is sorted
-  compare(*sph, wrong, written);
+  for (int k = 0; k < 20; ++k) sph->advance(sph->vote().dt);  // into the impact; here shapes of H are voted on
+  compare(*sph, findings);
 }
 
 /// A few hundred to a few thousand particles.
 std::vector<std::string> coarse(const std::string& name) {
   const std::map<std::string, std::string> spacings{
-      {"basalt_impact", "4 mm"},    {"expanding_ring", "1 mm"}, {"pumice_impact", "5 mm"}, {"pumice_impact_2d", "3 mm"},
+      {"basalt_impact", "3 mm"},    {"expanding_ring", "1 mm"}, {"pumice_impact", "4 mm"}, {"pumice_impact_2d", "3 mm"},
       {"rubber_balls_3d", "4 mm"}, {"tensile_rod_2d", "0.5 mm"}, {"tensile_rod_3d", "0.7 mm"}};
   const auto found = spacings.find(name);
   return found == spacings.end() ? std::vector<std::string>{} : std::vector{"resolution.spacing=" + found->second};
 }
 
+/// Said, but for what a few steps of these scenes do not bring about.
+const std::set<std::string> seldom{
+    "neighbours reads smoothing_length", "neighbours reads smoothing_metric",  // go into the lists, which are no columns
+    "neighbours writes position", "neighbours writes velocity",                // of what crosses a face
+    "driven bodies reads mass", "driven bodies reads position", "driven bodies reads velocity",  // for the ledger
+    "bonds reads density", "bonds reads stretch", "bonds reads plastic_strain", "bonds writes bond", "pair rates writes stretch",  // nothing has torn
+    "shapes reads mass", "shapes writes neighbour_sum", "shapes writes smoothing_length",  // at the start only
+    "strain rates writes density"};  // held where neighbours change places
+
 TEST(StageTable, SaysWhatEachStageReadsAndWritesInEveryShippedScene) {
   int scenes = 0;
-  std::set<std::string> written;
+  Findings all;
   for (const auto& entry : std::filesystem::directory_iterator(EJECTA_SOURCE_DIR "/inputs")) {
     if (entry.path().extension() != ".toml") continue;
     const std::string name = entry.path().stem();
     SCOPED_TRACE(name);
-    std::set<std::string> wrong;
+    all.wrong.clear();
     const Scene scene = read_scene(entry.path(), coarse(name));
     if (scene.dimension == 2)
-      follow<2>(scene, wrong, written);
+      follow<2>(scene, all);
     else
-      follow<3>(scene, wrong, written);
-    for (const std::string& what : wrong) ADD_FAILURE() << what << ", says nothing of it";
+      follow<3>(scene, all);
+    for (const std::string& what : all.wrong) ADD_FAILURE() << what << ", says nothing of it";
     ++scenes;
   }
   EXPECT_GE(scenes, 9);
+  for (const std::string& what : all.said)
+    if (!all.mattered.contains(what) && !seldom.contains(what)) ADD_FAILURE() << what << ": said, and never seen to matter";
 }
 
 }  // namespace
