@@ -35,7 +35,7 @@ class Package(RunTest):
         self.assertIn("oscillators.count", refused.stderr)
 
     def test_its_vote_bounds_the_step(self):
-        out = self.run_scene(SOD, "vote", {**VALUES, "oscillators.period": "1 us", "time.end": "20 us", "insitu.enabled": "false",
+        out = self.run_scene(SOD, "vote", {**VALUES, "oscillators.period": "1 us", "time.end": "20 us",
                                            "output.history_interval": "0.1 us"})
         history = Table(out / "history.csv")
         self.assertEqual(set(history["limited by"][1:]), {"oscillators"})
@@ -43,9 +43,9 @@ class Package(RunTest):
         self.assertLess(max(map(abs, history.numbers("energy error"))), 1e-12)
 
     def test_restart_goes_on_bit_for_bit(self):
-        whole = self.run_scene(SOD, "whole", {**VALUES, "insitu.enabled": "false"})
-        half = self.run_scene(SOD, "half", {**VALUES, "insitu.enabled": "false", "time.max_steps": 30})
-        result = ejecta("run", SOD, "--out", half, "--restart", *settings({**VALUES, "insitu.enabled": "false"}))
+        whole = self.run_scene(SOD, "whole", {**VALUES})
+        half = self.run_scene(SOD, "half", {**VALUES, "time.max_steps": 30})
+        result = ejecta("run", SOD, "--out", half, "--restart", *settings({**VALUES}))
         self.assertEqual(result.returncode, 0, result.stderr)
         ours, theirs = Table(half / "history.csv"), Table(whole / "history.csv")
         self.assertEqual(ours.rows[-1], theirs.rows[-1])
@@ -62,7 +62,7 @@ class Package(RunTest):
                           "    particles.UpdatePipeline()\n"
                           "    data = particles.GetDataInformation()\n"
                           f"    open('{self.folder}/seen.txt', 'a').write(f'{{data.GetNumberOfPoints()}}\\n')\n")
-        self.run_scene(SOD, "channel", {**VALUES, "insitu.pipelines": f'["{script}"]'})
+        self.run_scene(SOD, "channel", {**VALUES, "insitu.enabled": "true", "insitu.pipelines": f'["{script}"]'})
         self.assertEqual((self.folder / "seen.txt").read_text().split(), ["4", "4"])
 
 
