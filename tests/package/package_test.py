@@ -55,7 +55,6 @@ class Package(RunTest):
         script.write_text("# script-version: 2.0\n"
                           "from paraview.simple import *\n"
                           "from paraview import catalyst\n"
-                          "from ejecta_view import setting\n"
                           "particles = PVTrivialProducer(registrationName='oscillators')\n"
                           "options = catalyst.Options()\n"
                           "def catalyst_execute(info):\n"
