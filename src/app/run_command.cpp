@@ -141,6 +141,7 @@ int run_command(const RunOptions& options) {
   job.restart = options.restart;
   job.overwrite = options.overwrite;
   check_run_folder(options, job.folder);
+  job.catalyst = job.scene.insitu.enabled && gl_works();
   return job.scene.dimension == 2 ? run_in<2>(job) : run_in<3>(job);
 }
 

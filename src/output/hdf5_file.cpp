@@ -1,8 +1,6 @@
 #include "output/hdf5_file.hpp"
 
 #include <hdf5.h>
-#include <sys/mman.h>
-#include <unistd.h>
 
 #include <type_traits>
 #include <utility>
@@ -14,6 +12,10 @@ namespace ejecta {
 static_assert(std::is_same_v<hid_t, std::int64_t> && std::is_same_v<herr_t, int>);
 
 namespace {
+
+/// HDF5 cannot close a file that it cannot write. At the end of the process or, if it began after MPI (which comes with
+/// ParaView), at the end of that it would try once more and fall over it: so it begins first, and never ends.
+[[maybe_unused]] const herr_t begun_for_good = (H5dont_atexit(), H5open());
 
 /// HDF5 prints a stack of messages by itself unless told not to.
 class Quiet {
@@ -35,17 +37,6 @@ std::int64_t open_file(const std::filesystem::path& file, Hdf5File::Mode mode) {
   const Quiet quiet;
   return mode == Hdf5File::Mode::create ? H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT)
                                         : H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-}
-
-/// HDF5 cannot close what it cannot write: it would try again at the end of the process and fall over it. What it still
-/// wants to write of a file that is of no use any more goes to memory instead.
-void divert_to_memory(std::int64_t file) {
-  const Quiet quiet;
-  void* descriptor = nullptr;
-  if (H5Fget_vfd_handle(file, H5P_DEFAULT, &descriptor) < 0) return;
-  const int memory = memfd_create("ejecta", 0);
-  dup2(memory, *static_cast<int*>(descriptor));
-  close(memory);
 }
 
 /// A zero-terminated UTF-8 text of fixed length.
@@ -73,11 +64,7 @@ Hdf5File::Hdf5File(std::filesystem::path file, Mode mode)
 }
 
 void Hdf5File::fail(const std::string& what) const {
-  if (mode_ == Mode::create) {
-    const int reason = errno;
-    if (file_.id() >= 0) divert_to_memory(file_.id());
-    throw OutputError(path_, reason);
-  }
+  if (mode_ == Mode::create) throw OutputError(path_);
   throw InputError(path_.string() + ": " + what);
 }
 
