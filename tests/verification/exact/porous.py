@@ -108,7 +108,7 @@ class PorousBody:
         """Behind the precursor, a jump to P_e at constant distension."""
         return self.shock_to(self.rest, self.curve.elastic, self.curve.alpha0)
 
-    def rate_form(self, density, energy, substeps=8):
+    def rate_form(self, density, energy, substeps=16):
         """Distension along a path of states, piecewise straight, by its rate (Jutzi, Benz & Michel 2008):
         d(alpha)/dt = d(alpha)/dP [alpha dP_s/drho_s drho/dt + dP_s/de de/dt] / (alpha + d(alpha)/dP (P - rho
         dP_s/drho_s)) on the curve, never positive; 0 below it. Runge-Kutta of fourth order from alpha0 on."""

@@ -13,7 +13,7 @@ class ImplicitVsRate(Case):
     corrector does: second order."""
     name = "implicit_vs_rate"
     title = "pumice crushed, released and crushed again: alpha(P) as a root and by its rate"
-    exact = "rate form of Jutzi, Benz & Michel (2008) along each particle's own path, Runge-Kutta, 8 parts of a step"
+    exact = "rate form of Jutzi, Benz & Michel (2008) along each particle's own path, Runge-Kutta, 16 parts of a step"
     quick = (1200,)
     full = (1200, 2400, 4800)
     boost, boost_speed = "y", 100.0
