@@ -21,8 +21,9 @@ class ImplicitVsRate(Case):
     bounds = (
         Bound("alpha on the way", "rate form", {1200: 5.5e-4, 2400: 3.1e-4, 4800: 1.6e-4},
               why="both turn a sharp bend where crushing begins"),
-        # 2.3e-5 at 2400, and both orders less than with full viscosity: fronts are sharper, and pass in fewer steps.
-        Bound("alpha after the shocks", "rate form", {1200: 1e-4, 2400: 2.7e-5, 4800: 7.8e-6}, 1.4),
+        # Orders are less than with full viscosity: fronts are sharper, and pass in fewer steps. Of the least squares over
+        # 1200 to 4800: 1.05 with the reference in 16 parts of a step, which at 1200 brings the two 1.7 times nearer.
+        Bound("alpha after the shocks", "rate form", {1200: 5e-5, 2400: 2.7e-5, 4800: 7.8e-6}, 1.0),
         Bound("alpha while crushed", "curve", 1e-9, why="a root; its tolerance of 1e-12 in alpha, seen through the "
                                                         "stiffness of the solid"),
         Bound("alpha while released", "change", 0.0, why="exact"),
