@@ -55,6 +55,8 @@ void conclude(const Simulation& sim, const Sph<Dim>& sph, const FrameResults& fr
                    s.linking_length, s.fragments, 100 * s.largest_mass_fraction, 100 * s.dust_mass_fraction,
                    context.unit());
   }
+  if (const int failed = frames.pipeline_failures(); failed > 0)
+    spdlog::warn("in situ: {} calls of pipelines have failed; insitu.log says why", failed);
   for (const auto& package : sim.packages)
     for (const Remark& remark : package->remarks())
       spdlog::log(remark.worrying ? spdlog::level::warn : spdlog::level::info, "{}", remark.text);

@@ -110,7 +110,7 @@ bool CatalystBridge::State::run(Script& script) {
   redirection.log().clear();
   if (!import(script)) return false;
   if (!script.module->RequestDataDescription(description)) return true;  // its own trigger says: not now
-  return script.module->CatalystExecute(description);
+  return script.module->CatalystExecute(description) && !redirection.log().has_error();
 }
 
 CatalystBridge::CatalystBridge(const std::vector<std::string>& scripts, PipelineSettings settings) {

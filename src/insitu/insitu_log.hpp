@@ -19,6 +19,8 @@ class InsituLog : public vtkOutputWindow {
 
   const std::string& text() const { return text_; }
   void clear() { text_.clear(); }
+  /// Whether VTK has spoken of an error since: its filters and writers raise no exception of Python.
+  bool has_error() const { return text_.find("ERROR: In ") != std::string::npos; }
   /// The end of the text as one line: of a Python traceback the exception, with the script's line that raised it.
   std::string reason(const std::string& script) const;
 

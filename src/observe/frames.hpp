@@ -33,6 +33,7 @@ class FrameResults : public Observer {
   void warn(std::string text);
   int images() const { return images_; }
   int drawn() const { return drawn_; }  ///< frames so far
+  virtual int pipeline_failures() const = 0;  ///< calls of Catalyst scripts that failed
 
  protected:
   std::optional<FragmentTable> fragments_;
@@ -49,6 +50,7 @@ class Frames final : public FrameResults {
 
   double next_time() const override { return schedule_.next(); }
   void observe(Simulation& sim, bool last) override;
+  int pipeline_failures() const override { return bridge_ ? bridge_->failures() : 0; }
   /// After a restart: the next frame is the first one later than the checkpoint.
   void resume();
 

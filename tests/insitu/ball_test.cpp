@@ -36,8 +36,19 @@ class Ball : public testing::Test {
                                            "    raise ValueError('out of luck')\n";
     std::ofstream(folder + "/fails_at_once.py") << "# script-version: 2.0\n"
                                                    "raise ValueError('out of luck at once')\n";
+    // A writer of VTK that is given what it cannot write: no exception, only an error of VTK.
+    std::ofstream(folder + "/writes_nothing.py")
+        << "# script-version: 2.0\n"
+           "from paraview.simple import *\n"
+           "from paraview import catalyst\n"
+           "source = PVTrivialProducer(registrationName='particles')\n"
+           "out = CreateExtractor('VTPD', source, registrationName='VTPD1')\n"
+           "out.Trigger = 'TimeStep'\n"
+           "out.Writer.FileName = 'p_{timestep:06d}.vtpd'\n"
+           "options = catalyst.Options()\n";
     std::vector<std::string> scripts = default_pipelines(true);
-    scripts.insert(scripts.begin(), {folder + "/fails.py", folder + "/mine.py", folder + "/fails_at_once.py"});
+    scripts.insert(scripts.begin(), {folder + "/fails.py", folder + "/mine.py", folder + "/fails_at_once.py",
+                                     folder + "/writes_nothing.py"});
     check_pipeline_scripts(scripts);
     signal(SIGINT, own_handler);
     const ShatteredBall young(3000, 20, 100, 0.1), old(3000, 20, 100, 0.3);
@@ -63,7 +74,7 @@ TEST_F(Ball, EveryViewHasAnImageEachFrame) {
                                           image("mine_000025.png"), image("slice_000025.png")};
   EXPECT_EQ(second.images, expected);
   EXPECT_EQ(first.images.size(), 4u);
-  EXPECT_EQ(second.pipelines.size(), 6u);
+  EXPECT_EQ(second.pipelines.size(), 7u);
 }
 
 TEST_F(Ball, ImagesHaveTheSceneSizeAndShowTheObjectWithinTheFrame) {
@@ -107,11 +118,13 @@ TEST_F(Ball, AUsersExtractorWritesIntoTheRunFolder) {
 }
 
 TEST_F(Ball, AFailingScriptIsReportedOnceAndTheOthersGoOn) {
-  ASSERT_EQ(first.warnings.size(), 2u);
+  ASSERT_EQ(first.warnings.size(), 3u);
   EXPECT_EQ(first.warnings[0], folder + "/fails.py:5: ValueError: out of luck");
   EXPECT_EQ(first.warnings[1], folder + "/fails_at_once.py:2: ValueError: out of luck at once");
+  EXPECT_NE(first.warnings[2].find("writes_nothing.py: "), std::string::npos);
+  EXPECT_NE(first.warnings[2].find("a vtkPartitionedDataSet is required"), std::string::npos) << first.warnings[2];
   EXPECT_TRUE(second.warnings.empty());
-  EXPECT_EQ(failures, 4);
+  EXPECT_EQ(failures, 6);
   std::ostringstream log;
   log << std::ifstream(folder + "/insitu.log").rdbuf();
   EXPECT_NE(log.str().find("ValueError: out of luck"), std::string::npos);
