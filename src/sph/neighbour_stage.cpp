@@ -24,22 +24,24 @@ void renew_lists(Sph<Dim>& sph) {
 }
 
 template <int Dim>
-std::function<void(Sph<Dim>&)> neighbours() {
-  return [order = std::vector<std::uint32_t>()](Sph<Dim>& sph) mutable {
+StageWork<Dim> neighbours() {
+  const auto order = std::make_shared<std::vector<std::uint32_t>>();
+  const auto run = [order](Sph<Dim>& sph) {
     wrap_positions(sph.particles, sph.scene.boundary);
     if (sph.clock.step % steps_between_sorts == 0) {
-      spatial_order(sph.particles, cluster_size(sph.scene.numerics.precision), order);
-      sph.particles.reorder(order);
+      spatial_order(sph.particles, cluster_size(sph.scene.numerics.precision), *order);
+      sph.particles.reorder(*order);
       sph.lists.invalidate();
       ++sph.sorts;
     }
     renew_lists(sph);
   };
+  return {run, [order] { return order->capacity() * sizeof(std::uint32_t); }};
 }
 
 template void renew_lists<2>(Sph<2>&);
 template void renew_lists<3>(Sph<3>&);
-template std::function<void(Sph<2>&)> neighbours<2>();
-template std::function<void(Sph<3>&)> neighbours<3>();
+template StageWork<2> neighbours<2>();
+template StageWork<3> neighbours<3>();
 
 }  // namespace ejecta

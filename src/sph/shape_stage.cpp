@@ -38,6 +38,10 @@ struct Scratch {
   std::vector<ShapeVote<Dim>> votes;
   std::vector<int> neighbours;  ///< of the particles
   std::vector<double> lengths;
+  std::size_t bytes() const {
+    return lengths.capacity() * sizeof(double) + places.capacity() * sizeof(Place) +
+           votes.capacity() * sizeof(ShapeVote<Dim>) + neighbours.capacity() * sizeof(int);
+  }
 };
 
 /// Where particles and their images are, and of what they are made.
@@ -188,8 +192,10 @@ double resize(Sph<Dim>& sph, std::vector<double>& before) {
 }  // namespace
 
 template <int Dim>
-std::function<void(Sph<Dim>&)> vote_shapes() {
-  return [scratch = Scratch<Dim>()](Sph<Dim>& sph) mutable {
+StageWork<Dim> vote_shapes() {
+  const auto kept = std::make_shared<Scratch<Dim>>();
+  const auto run = [kept](Sph<Dim>& sph) {
+    Scratch<Dim>& scratch = *kept;
     if (sph.clock.step % sph.scene.numerics.shape_interval != 0) return;
     if (sph.clock.step > 0) {
       sph.shape_report += vote(sph, scratch, false).report;
@@ -203,9 +209,10 @@ std::function<void(Sph<Dim>&)> vote_shapes() {
       if (moved < converged) break;
     }
   };
+  return {run, [kept] { return kept->bytes(); }};
 }
 
-template std::function<void(Sph<2>&)> vote_shapes<2>();
-template std::function<void(Sph<3>&)> vote_shapes<3>();
+template StageWork<2> vote_shapes<2>();
+template StageWork<3> vote_shapes<3>();
 
 }  // namespace ejecta

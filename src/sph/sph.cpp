@@ -81,7 +81,9 @@ Quantities Sph<Dim>::quantities() const {
 
 template <int Dim>
 std::size_t Sph<Dim>::bytes() const {
-  return particles.bytes() + lists.bytes() + pass->bytes();
+  std::size_t kept = 0;
+  for (const Stage<Dim>& stage : stages) kept += stage.bytes();
+  return particles.bytes() + lists.bytes() + pass->bytes() + kept;
 }
 
 template <int Dim>

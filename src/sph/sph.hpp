@@ -20,13 +20,19 @@ namespace ejecta {
 template <int Dim>
 struct Sph;
 
-/// One line of the algorithm: what it reads, what it writes, what it does. A stage is in the list only if the scene
-/// asks for it, and a column exists only if a stage names it. What a stage keeps for itself lives in its closure.
+/// What a stage does. What it keeps for itself lives in here.
 template <int Dim>
-struct Stage {
+struct StageWork {
+  std::function<void(Sph<Dim>&)> run;
+  std::function<std::size_t()> bytes = [] { return std::size_t{0}; };  ///< of what it keeps
+};
+
+/// One line of the algorithm: what it reads, what it writes, what it does. A stage is in the list only if the scene
+/// asks for it, and a column exists only if a stage names it.
+template <int Dim>
+struct Stage : StageWork<Dim> {
   std::string name;
   std::vector<Field> reads, writes;
-  std::function<void(Sph<Dim>&)> run;
 };
 
 /// Something that bounds the time step.

@@ -58,16 +58,19 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
   const bool gradient = solid || continuity || balsara || switched || tensor || corrects_gradients(scene, materials);
 
   std::vector<Stage<Dim>> stages;
-  auto add = [&](std::string name, Fields reads, Fields writes, std::function<void(Sph<Dim>&)> run) {
-    stages.push_back({std::move(name), std::move(reads.list), std::move(writes.list), std::move(run)});
+  auto add_work = [&](std::string name, Fields reads, Fields writes, StageWork<Dim> work) {
+    stages.push_back({std::move(work), std::move(name), std::move(reads.list), std::move(writes.list)});
+  };
+  auto add = [&](std::string name, Fields reads, Fields writes, void (*run)(Sph<Dim>&)) {
+    add_work(std::move(name), std::move(reads), std::move(writes), {.run = run});
   };
   if (tensor)
     add("carried smoothing", Fields{velocity_gradient, smoothing_metric}.with(bonded, {bond}),
         {smoothing_metric, smoothing_length}, carry_smoothing<Dim>);
-  add("neighbours", Fields{position, velocity, smoothing_length}.with(tensor, {smoothing_metric}),
+  add_work("neighbours", Fields{position, velocity, smoothing_length}.with(tensor, {smoothing_metric}),
       Fields{}.with(bounded(scene.boundary), {position, velocity}), neighbours<Dim>());
   if (tensor)
-    add("shapes", Fields{position, mass, smoothing_length, smoothing_metric}.with(bonded, {bond}),
+    add_work("shapes", Fields{position, mass, smoothing_length, smoothing_metric}.with(bonded, {bond}),
         {smoothing_length, smoothing_metric, neighbour_sum}, vote_shapes<Dim>());
   if (!continuity)
     add("density", {position, smoothing_length, mass}, {density, neighbour_sum, smoothing_length},

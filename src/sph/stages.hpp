@@ -64,7 +64,7 @@ void viscosity_switches(Sph<Dim>& sph);
 /// Shapes of H by the votes of the neighbours, every numerics.shape_interval steps. At the start votes and sizes are
 /// repeated until they settle.
 template <int Dim>
-std::function<void(Sph<Dim>&)> vote_shapes();
+StageWork<Dim> vote_shapes();
 
 // --- peaks_stage.cpp -------------------------------------------------------------------------------------------------
 /// What each particle has seen so far: highest pressure and energy, lowest density; and where it was at the start.
@@ -74,7 +74,7 @@ void peaks(Sph<Dim>& sph);
 // --- neighbour_stage.cpp ---------------------------------------------------------------------------------------------
 /// Renews the pair lists if somebody has left its margin, and the order of the particles if it has worn out.
 template <int Dim>
-std::function<void(Sph<Dim>&)> neighbours();
+StageWork<Dim> neighbours();
 /// Renews the pair lists alone, if need be: after smoothing lengths have changed within a step.
 template <int Dim>
 void renew_lists(Sph<Dim>& sph);

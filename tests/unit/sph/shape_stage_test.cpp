@@ -71,7 +71,7 @@ TEST(ShapeStage, VotesAsThePeriodicSetThatTheBoxStandsFor) {
   auto set = unfolded(*sim);
   const Mat<2> before = sim->particles.symmetric(Field::smoothing_metric, 0);
   sim->clock.step = 2 * sim->scene.numerics.shape_interval;
-  vote_shapes<2>()(*sim);
+  vote_shapes<2>().run(*sim);
   vote(set, {});
   double largest = 1;
   for (std::size_t i = 0; i < sim->particles.size(); ++i) {
@@ -96,7 +96,7 @@ TEST(ShapeStage, SettlesShapesAndSizesAtTheStart) {
   auto set = unfolded(*sim);
   set.box(0, 0) = 1.5;
   sim->clock.step = 0;
-  vote_shapes<2>()(*sim);
+  vote_shapes<2>().run(*sim);
   vote(set, {.reach = 4}, 30);
   double mean = 0;
   for (std::size_t i = 0; i < sim->particles.size(); ++i) {
@@ -113,7 +113,7 @@ TEST(ShapeStage, ActsOnlyWhenItIsTimeTo) {
   auto sim = gas_box(0.2);
   const auto before = by_id(sim->particles, Field::smoothing_metric, 2);
   sim->clock.step = sim->scene.numerics.shape_interval + 1;
-  vote_shapes<2>()(*sim);
+  vote_shapes<2>().run(*sim);
   EXPECT_EQ(by_id(sim->particles, Field::smoothing_metric, 2), before);
   EXPECT_EQ(sim->shape_report.votes, 0);
 }
@@ -123,9 +123,9 @@ TEST(ShapeStage, IsTheSameForEveryNumberOfThreads) {
   for_thread_counts([&](int) {
     auto sim = gas_box(0.2);
     sim->clock.step = 0;
-    vote_shapes<2>()(*sim);
+    vote_shapes<2>().run(*sim);
     sim->clock.step = sim->scene.numerics.shape_interval;
-    vote_shapes<2>()(*sim);
+    vote_shapes<2>().run(*sim);
     results.emplace_back();
     for (int k = 0; k < 3; ++k)
       for (double value : by_id(sim->particles, Field::smoothing_metric, k)) results.back().push_back(value);
@@ -148,7 +148,7 @@ TEST(ShapeStage, MaterialsVoteAmongThemselves) {
   renew_lists(*alone);
   for (auto* sim : {whole.get(), halves.get(), alone.get()}) {
     sim->clock.step = sim->scene.numerics.shape_interval;
-    vote_shapes<2>()(*sim);
+    vote_shapes<2>().run(*sim);
   }
   int at_the_cut = 0, changed = 0;
   for (std::size_t i = 0; i < whole->particles.size(); ++i) {
