@@ -29,7 +29,7 @@ FragmentInput fragment_input(const Sph<Dim>& sim) {
   const Boundary& boundary = sim.scene.boundary;
   FragmentInput in;
   for (std::size_t a = 0; a < Dim; ++a)
-    if (boundary.kind[a] == BoundaryKind::periodic) in.box[a] = {boundary.min[a], boundary.max[a] - boundary.min[a]};
+    if (boundary.periodic(a)) in.box[a] = {boundary.min[a], boundary.length(a)};
   in.piece_of_body = pieces_of_bodies(sim.scene, sim.materials, sim.body_material);
   in.target = static_cast<std::int32_t>(target_body(sim.scene, sim.outset.bodies));
   for (int a = 0; a < Dim; ++a) {

@@ -21,9 +21,9 @@ double stretch_of(const Particles<Dim>& particles, std::size_t i) {
 }  // namespace
 
 template <int Dim>
-void PairLists<Dim>::build(const Particles<Dim>& particles, const Settings& settings) {
+void PairLists<Dim>::build(const Particles<Dim>& particles, const Settings& settings, const Guests<Dim>& guests) {
   support_per_h_ = settings.support;
-  make_points(particles, settings);
+  make_points(particles, settings, guests);
   make_clusters(particles, settings.cluster_size);
   make_tree();
   // Each block of clusters fills a list of its own, which keeps its memory from build to build.
@@ -44,64 +44,77 @@ void PairLists<Dim>::build(const Particles<Dim>& particles, const Settings& sett
 }
 
 template <int Dim>
-void PairLists<Dim>::make_points(const Particles<Dim>& particles, const Settings& settings) {
+void PairLists<Dim>::make_points(const Particles<Dim>& particles, const Settings& settings, const Guests<Dim>& guests) {
   const std::size_t n = particles.size();
-  const auto h = particles.column(Field::smoothing_length);
   const auto mass = particles.column(Field::mass);
   const double total_mass = parallel_sum<double>(n, [&](std::size_t i) { return mass[i]; });
   for (int a = 0; a < Dim; ++a) {
     const auto v = particles.column(Field::velocity, a);
-    // A reflecting face does not drift along, and images beyond it move the other way.
-    drift_[a] = mirrors(settings.boundary.kind[a])
+    // A face that mirrors does not drift along, and ghosts beyond it move the other way.
+    const auto k = static_cast<std::size_t>(a);
+    drift_[a] = mirrors(settings.boundary.lower[k]) || mirrors(settings.boundary.upper[k])
                     ? 0.0
                     : parallel_sum<double>(n, [&](std::size_t i) { return mass[i] * v[i]; }) / total_mass;
   }
+  const bool tensor = particles.has(Field::smoothing_metric);
   points_.resize(n);
+  ellipsoids_.resize(tensor ? n : 0);
   parallel_for(0, n, [&](std::size_t i) {
-    Point& p = points_[i];
-    double speed2 = 0;
-    for (int a = 0; a < Dim; ++a) {
-      p.x[a] = particles.column(Field::position, a)[i];
-      const double v = particles.column(Field::velocity, a)[i] - drift_[a];
-      speed2 += v * v;
-    }
-    p.support = settings.support * h[i] * stretch_of(particles, i);
-    p.margin = least_margin * p.support + std::sqrt(speed2) * settings.horizon;
+    points_[i] = point_of(particles, i, settings);
+    if (tensor) ellipsoids_[i] = ellipsoid_of(particles, i, points_[i]);
   });
-  ellipsoids_.clear();
-  if (particles.has(Field::smoothing_metric)) {
-    ellipsoids_.resize(n);
-    parallel_for(0, n, [&](std::size_t i) {
-      const Mat<Dim> metric = particles.symmetric(Field::smoothing_metric, i), inverse = metric.inverse();
-      const Axes axes = axes_of<Dim>(metric);
-      Ellipsoid& e = ellipsoids_[i];
-      const double stretch = stretch_of(particles, i);
-      for (int k = 0; k < symmetric_size<Dim>; ++k)
-        e.metric[k] = particles.column(Field::smoothing_metric, k)[i] / (stretch * stretch);
-      for (int a = 0; a < Dim; ++a) e.extent[a] = settings.support * stretch * std::sqrt(inverse(a, a));
-      e.per_length = 1 / (stretch * axes.shortest);
-      points_[i].support = settings.support * stretch * axes.longest;
-    });
-  }
-  images_.clear();
-  if (!bounded(settings.boundary)) return;
+  ghosts_.ghosts.clear();
+  if (!settings.boundary.bounded() && guests.empty()) return;
   // A pair may be as far apart as the widest reach of the one and the widest margin of the other.
   double reach = 0, margin = 0;
   for (const Point& p : points_) {
     reach = std::max(reach, p.support + p.margin);
     margin = std::max(margin, p.margin);
   }
-  make_images(particles, settings.boundary, reach + margin, images_);
-  for (const Image& image : images_) {
-    Point p = points_[image.source];
-    for (int a = 0; a < Dim; ++a) p.x[a] = image_position(settings.boundary, image, a, p.x[a]);
+  find_ghosts(particles, guests, settings.boundary, reach + margin, ghosts_);
+  for (const Ghost& ghost : ghosts_.ghosts) {
+    const Transform& seen = ghosts_.transform(ghost);
+    const Particles<Dim>& owner = ghosts_.owner(ghost, particles);
+    Point p = ghost.owner == 0 ? points_[ghost.source] : point_of(owner, ghost.source, settings);
+    if (tensor) {
+      Ellipsoid e = ghost.owner == 0 ? ellipsoids_[ghost.source] : ellipsoid_of(owner, ghost.source, p);
+      for (int a = 0; a < Dim; ++a)
+        if (seen.mirrors(a)) mirror_symmetric<Dim>(e.metric.data(), a);
+      ellipsoids_.push_back(e);
+    }
+    for (int a = 0; a < Dim; ++a) p.x[a] = seen.position(a, p.x[a]);
     points_.push_back(p);
-    if (ellipsoids_.empty()) continue;
-    Ellipsoid e = ellipsoids_[image.source];
-    for (int a = 0; a < Dim; ++a)
-      if (image.mirror[a] != 0) mirror_symmetric<Dim>(e.metric.data(), a);
-    ellipsoids_.push_back(e);
   }
+}
+
+template <int Dim>
+typename PairLists<Dim>::Point PairLists<Dim>::point_of(const Particles<Dim>& particles, std::size_t i,
+                                                        const Settings& settings) const {
+  Point p;
+  double speed2 = 0;
+  for (int a = 0; a < Dim; ++a) {
+    p.x[a] = particles.column(Field::position, a)[i];
+    const double v = particles.column(Field::velocity, a)[i] - drift_[a];
+    speed2 += v * v;
+  }
+  p.support = settings.support * particles.column(Field::smoothing_length)[i] * stretch_of(particles, i);
+  p.margin = least_margin * p.support + std::sqrt(speed2) * settings.horizon;
+  return p;
+}
+
+template <int Dim>
+typename PairLists<Dim>::Ellipsoid PairLists<Dim>::ellipsoid_of(const Particles<Dim>& particles, std::size_t i,
+                                                                Point& point) const {
+  const Mat<Dim> metric = particles.symmetric(Field::smoothing_metric, i), inverse = metric.inverse();
+  const Axes axes = axes_of<Dim>(metric);
+  const double stretch = stretch_of(particles, i);
+  Ellipsoid e;
+  for (int k = 0; k < symmetric_size<Dim>; ++k)
+    e.metric[k] = particles.column(Field::smoothing_metric, k)[i] / (stretch * stretch);
+  for (int a = 0; a < Dim; ++a) e.extent[a] = support_per_h_ * stretch * std::sqrt(inverse(a, a));
+  e.per_length = 1 / (stretch * axes.shortest);
+  point.support = support_per_h_ * stretch * axes.longest;
+  return e;
 }
 
 template <int Dim>
@@ -230,29 +243,36 @@ void PairLists<Dim>::search(std::size_t cluster, std::vector<std::uint32_t>& fou
 template <int Dim>
 bool PairLists<Dim>::valid(const Particles<Dim>& particles, double elapsed) const {
   if (built_for_ != particles.size()) return false;
-  const auto h = particles.column(Field::smoothing_length);
-  // Excess of motion and of growth over the margin, largest over all particles.
-  const IndexedMin slack = parallel_min(particles.size(), 0.0, [&](std::size_t i) {
-    const Point& p = points_[i];
+  // Margin less motion and growth.
+  const auto slack = [&](const Particles<Dim>& owner, std::size_t i, std::size_t place) {
+    const Point& p = points_[place];
     double moved2 = 0;
     for (int a = 0; a < Dim; ++a) {
-      const double d = particles.column(Field::position, a)[i] - p.x[a] - drift_[a] * elapsed;
+      const double d = owner.column(Field::position, a)[i] - p.x[a] - drift_[a] * elapsed;
       moved2 += d * d;
     }
     double grown = 0;
     if (ellipsoids_.empty()) {
-      grown = std::max(0.0, support_per_h_ * h[i] * stretch_of(particles, i) - p.support);
+      grown =
+          std::max(0.0, support_per_h_ * owner.column(Field::smoothing_length)[i] * stretch_of(owner, i) - p.support);
     } else {
       Symmetric<Dim> then;
-      for (int k = 0; k < symmetric_size<Dim>; ++k) then[k] = ellipsoids_[i].metric[k];
-      const double stretch = stretch_of(particles, i);
-      const double out = outgrowth<Dim>(
-          matrix_of<Dim>(then), Mat<Dim>(particles.symmetric(Field::smoothing_metric, i) / (stretch * stretch)));
-      grown = (out - 1) * support_per_h_ / ellipsoids_[i].per_length;
+      for (int k = 0; k < symmetric_size<Dim>; ++k) then[k] = ellipsoids_[place].metric[k];
+      const double stretch = stretch_of(owner, i);
+      const double out = outgrowth<Dim>(matrix_of<Dim>(then),
+                                        Mat<Dim>(owner.symmetric(Field::smoothing_metric, i) / (stretch * stretch)));
+      grown = (out - 1) * support_per_h_ / ellipsoids_[place].per_length;
     }
     return p.margin - std::sqrt(moved2) - grown;
-  });
-  return slack.index == particles.size();
+  };
+  const std::size_t n = particles.size();
+  if (parallel_min(n, 0.0, [&](std::size_t i) { return slack(particles, i, i); }).index != n) return false;
+  for (std::size_t k = 0; k < ghosts_.size(); ++k) {
+    const Ghost& ghost = ghosts_.ghosts[k];
+    if (ghost.owner != 0 && ghost.transform == 0 && slack(ghosts_.owner(ghost, particles), ghost.source, n + k) < 0)
+      return false;
+  }
+  return true;
 }
 
 template <int Dim>
@@ -263,8 +283,7 @@ double PairLists<Dim>::mean_candidates() const {
 template <int Dim>
 std::size_t PairLists<Dim>::bytes() const {
   std::size_t total = points_.capacity() * sizeof(Point) + ellipsoids_.capacity() * sizeof(Ellipsoid) +
-                      images_.capacity() * sizeof(Image) +
-                      (clusters_.capacity() + leaves_.capacity()) * sizeof(Cluster);
+                      ghosts_.bytes() + (clusters_.capacity() + leaves_.capacity()) * sizeof(Cluster);
   for (const auto& level : levels_) total += level.capacity() * sizeof(Node);
   for (const auto& list : block_lists_) total += list.capacity() * sizeof(std::uint32_t);
   return total;

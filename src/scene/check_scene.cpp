@@ -6,6 +6,7 @@
 
 #include "base/errors.hpp"
 #include "scene/formula.hpp"
+#include "scene/names.hpp"
 #include "scene/scene_reader.hpp"
 #include "scene/units.hpp"
 
@@ -104,14 +105,22 @@ void check_profile(const Scene& scene, const Body& body, const std::string& path
 void check_boundary(const Scene& scene, const Report& report) {
   constexpr std::array axes{"x", "y", "z"};
   for (std::size_t k = 0; k < 3; ++k) {
-    if (scene.boundary.kind[k] == BoundaryKind::open) continue;
-    const std::string path = std::string("boundary.") + axes[k];
+    const BoundaryKind lower = scene.boundary.lower[k], upper = scene.boundary.upper[k];
+    const bool bounded = lower != BoundaryKind::open || upper != BoundaryKind::open;
+    if (!bounded) continue;
+    std::string path = std::string("boundary.") + axes[k];
+    if (!report.document.items.contains(path)) path += lower != BoundaryKind::open ? "_min" : "_max";
     const double min = scene.boundary.min[k], max = scene.boundary.max[k];
     if (k == 2 && scene.dimension == 2)
       report(path, "expected open in 2D");
-    else if (!is_set(min) || !is_set(max))
-      report(path, fmt::format("needs boundary.min and boundary.max along {}", axes[k]));
-    else if (!(min < max))
+    else if ((lower == BoundaryKind::periodic) != (upper == BoundaryKind::periodic))
+      report(path,
+             fmt::format("expected both faces to be periodic or none, got {} and {}", name_of(lower), name_of(upper)));
+    else if (lower != BoundaryKind::open && !is_set(min))
+      report(path, fmt::format("needs boundary.min along {}", axes[k]));
+    else if (upper != BoundaryKind::open && !is_set(max))
+      report(path, fmt::format("needs boundary.max along {}", axes[k]));
+    else if (lower != BoundaryKind::open && upper != BoundaryKind::open && !(min < max))
       report(path, fmt::format("expected boundary.min < boundary.max along {}, got {} and {}", axes[k],
                                format_quantity(min, "m"), format_quantity(max, "m")));
   }

@@ -15,13 +15,4 @@ enum class Kernel { cubic_spline, quintic_spline, wendland_c2, wendland_c4 };
 enum class Precision { double_precision, mixed };
 enum class DistensionSolver { safe_newton, bisection, newton };
 
-/// reflecting: a wall, which solids press against and leave; symmetry: a plane that matter goes on behind.
-enum class BoundaryKind { open, periodic, reflecting, symmetry };
-
-/// Box with periodic or reflecting faces; axes that are open extend to infinity.
-struct Boundary {
-  std::array<BoundaryKind, 3> kind{BoundaryKind::open, BoundaryKind::open, BoundaryKind::open};  ///< x, y, z
-  Triple min{unset, unset, unset}, max{unset, unset, unset};                                     ///< m
-};
-
 }  // namespace ejecta

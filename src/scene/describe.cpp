@@ -69,10 +69,25 @@ void describe(Describer& d, Numerics& n) {
 
 void describe(Describer& d, Boundary& b) {
   constexpr std::array axes{"x", "y", "z"};
-  for (std::size_t k = 0; k < axes.size(); ++k)
-    d.choice(axes[k], b.kind[k], fmt::format("the two faces across {}", axes[k]));
-  d.triple("min", b.min, "m", "lower corner of the box; components of open axes do not matter");
-  d.triple("max", b.max, "m", "upper corner of the box; components of open axes do not matter");
+  for (std::size_t k = 0; k < axes.size(); ++k) {
+    BoundaryKind &lower = b.lower[k], &upper = b.upper[k];
+    // Echoed once where both are alike, face by face where they are not.
+    const auto echoed_if = [&](bool alike, std::function<std::string()> word) {
+      return [&lower, &upper, alike, word] { return (lower == upper) == alike ? word() : ""; };
+    };
+    Choice& both = std::get<Choice>(d.choice(axes[k], lower, fmt::format("the two faces across {}", axes[k])).target);
+    both.get = echoed_if(true, both.get);
+    both.set = [&lower, &upper](std::size_t word) { lower = upper = static_cast<BoundaryKind>(word); };
+    for (BoundaryKind* face : {&lower, &upper}) {
+      const char* side = face == &lower ? "min" : "max";
+      Choice& one = std::get<Choice>(
+          d.choice(fmt::format("{}_{}", axes[k], side), *face, fmt::format("one of them alone, at boundary.{}", side))
+              .target);
+      one.get = echoed_if(false, one.get);
+    }
+  }
+  d.triple("min", b.min, "m", "lower corner of the box; components of open faces do not matter");
+  d.triple("max", b.max, "m", "upper corner of the box; components of open faces do not matter");
 }
 
 void describe(Describer& d, Contact& c) {

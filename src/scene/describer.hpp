@@ -32,7 +32,7 @@ std::string to_text(const Limits& limits, std::string_view si_unit);
 /// One of a fixed list of words, behind an enumeration or a string.
 struct Choice {
   std::vector<std::string> words;
-  std::function<std::string()> get;
+  std::function<std::string()> get;  ///< empty: nothing is set
   std::function<void(std::size_t)> set;
 };
 

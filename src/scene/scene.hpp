@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scene/boundary.hpp"
 #include "scene/choices.hpp"
 #include "scene/document.hpp"
 #include "scene/section.hpp"

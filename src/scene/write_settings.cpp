@@ -54,6 +54,7 @@ struct ToToml {
   }
   std::string operator()(const Choice& choice) const {
     const std::string word = choice.get();
+    if (word.empty()) return "";
     return word == "true" || word == "false" ? word : quoted(word);
   }
 };

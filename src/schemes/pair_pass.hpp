@@ -38,7 +38,7 @@ class PairPass {
   virtual ~PairPass() = default;
 
   /// Density by summation: rho_i = sum_j m_j W(r_ij, h_i), and the zeroth moment.
-  /// reads position, smoothing_length, mass; writes density, neighbour_sum.
+  /// reads position, smoothing_length, mass; writes density, zeroth_moment.
   virtual void density(Particles<Dim>& particles, const PairLists<Dim>& lists) = 0;
 
   /// Rates by pair forces. V = m/rho; g_ij is the kernel gradient grad_i W_ij, averaged over both particles' h;
@@ -72,12 +72,12 @@ class PairPass {
   /// start: nothing clumps under tension [Belytschko et al. 2000], and M^-1 brings the deformation in. Bonded particles
   /// of one piece that were further apart than twice the support meet like strangers.
   ///
-  /// Cracked, S is what cracks let through (cracked_stress.hpp), and coupled_gradient is the velocity gradient summed
+  /// Cracked, S is what cracks let through (cracked_stress.hpp), and uncut_gradient is the velocity gradient summed
   /// with weights f_ij = 1 - max(n.D_i n, n.D_j n), n the direction of the pair (D = 0 where a material is not cut): an
   /// opening crack does not strain the matter beside it.
   ///
-  /// Reads what PairRecord reads; writes acceleration, heating, neighbour_sum, approach_speed, velocity_gradient,
-  /// coupled_gradient, stretch (of bonds: the largest |x_ij|/|X_ij|, at least 1).
+  /// Reads what PairRecord reads; writes acceleration, heating, zeroth_moment, largest_mu, velocity_gradient,
+  /// uncut_gradient, stretch (of bonds: the largest |x_ij|/|X_ij|, at least 1).
   virtual void rates(Particles<Dim>& particles, const PairLists<Dim>& lists) = 0;
 
   virtual std::size_t bytes() const = 0;

@@ -141,13 +141,13 @@ void PairPassOf<T, Dim, Kind, K, Flux>::rates(Particles<Dim>& particles, const P
   const PairRules& rules = settings_.rules;
   const auto& clusters = lists.clusters();
   const RateColumns<Dim> columns(particles);
-  R::pack(particles, lists.images(), rules, scales(), records_);
+  R::pack(particles, lists.ghosts(), rules, scales(), records_);
   in_contact_.assign(clusters.size(), 0);
   if constexpr (Kind.stress) {
     around_.sums.resize(particles.size());
     if (settings_.contacts) {
       for_clusters(lists, [&](std::size_t k) { find_contacts(k, lists); });
-      R::pack_contacts(particles, lists.images(), rules, around_, contacts_);
+      R::pack_contacts(particles, lists.ghosts(), rules, around_, contacts_);
     }
     for_clusters(lists, [&](std::size_t k) {
       if (in_contact_[k])
@@ -156,7 +156,7 @@ void PairPassOf<T, Dim, Kind, K, Flux>::rates(Particles<Dim>& particles, const P
         sum_moments<false>(columns, clusters[k], lists.candidates(k));
     });
   }
-  R::pack_stress(particles, lists.images(), rules, around_, records_, contacts_);
+  R::pack_stress(particles, lists.ghosts(), rules, around_, records_, contacts_);
   for_clusters(lists, [&](std::size_t k) {
     if constexpr (Kind.stress)
       // In single precision both sides of a pair go through the same code, so that they round alike.
@@ -168,7 +168,7 @@ void PairPassOf<T, Dim, Kind, K, Flux>::rates(Particles<Dim>& particles, const P
 
 template <class T, int Dim, PassKind Kind, class K, class Flux>
 void PairPassOf<T, Dim, Kind, K, Flux>::density(Particles<Dim>& particles, const PairLists<Dim>& lists) {
-  R::pack(particles, lists.images(), settings_.rules, scales(), records_);
+  R::pack(particles, lists.ghosts(), settings_.rules, scales(), records_);
   const RateColumns<Dim> columns(particles);
   for_clusters(lists, [&](std::size_t k) { cluster_density(columns, lists.clusters()[k], lists.candidates(k)); });
 }
@@ -192,7 +192,7 @@ void PairPassOf<T, Dim, Kind, K, Flux>::cluster_density(const RateColumns<Dim>& 
   for (std::size_t i = c.begin; i < c.end; ++i) {
     const int k = static_cast<int>(i - c.begin);
     columns.density(0, i) = support.norm(k) * density.lane(k);
-    columns.neighbour_sum(0, i) = static_cast<double>(sum[k]);
+    columns.zeroth_moment(0, i) = static_cast<double>(sum[k]);
   }
 }
 

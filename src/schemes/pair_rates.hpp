@@ -126,7 +126,7 @@ void PairPassOf<T, Dim, Kind, K, Flux>::cluster_rates(const RateColumns<Dim>& co
           sums.cut_moment.add(p.dx, weighted);
         }
       }
-    } else {
+    } else if constexpr (!R::split) {  // else the work is not needed
       sums.divergence += weight * pair_detail::dot(dv, kernel_gradient);
     }
   };

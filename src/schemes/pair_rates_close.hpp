@@ -18,7 +18,7 @@ void PairPassOf<T, Dim, Kind, K, Flux>::close(const RateColumns<Dim>& columns, c
     for (int a = 0; a < Dim; ++a)
       columns.acceleration(a, i) = specific_volume * per_unit * sums.acceleration[a].lane(k);
     const double expanded = static_cast<double>(records_[i * R::size + R::expansion]);
-    double work = 0;  // of the stress, sigma : L
+    [[maybe_unused]] double work = 0;  // of the stress, sigma : L
     if constexpr (Kind.gradient) {
       const Mat<Dim> raw = sums.gradient.of_lane(k);
       work = pair_detail::double_contract<Kind.stress, Dim>(stress, k, raw);
@@ -39,9 +39,9 @@ void PairPassOf<T, Dim, Kind, K, Flux>::close(const RateColumns<Dim>& columns, c
         const Mat<Dim> left = around_.sums[i].moment - expanded * sums.cut_moment.of_lane(k);
         const auto correction = gradient_correction<Dim>(left, around_.sums[i].least);
         const Mat<Dim> uncut = correction.gradient(expanded * (raw - sums.cut.of_lane(k)));
-        columns.coupled_gradient.set(i, Mat<Dim>(per_unit * uncut));
+        columns.uncut_gradient.set(i, Mat<Dim>(per_unit * uncut));
       }
-    } else {
+    } else if constexpr (!R::split) {
       work = static_cast<double>(stress[0][k]) * static_cast<double>(sums.divergence[k]);
     }
     double pairs = sums.heat.lane(k);
@@ -53,9 +53,9 @@ void PairPassOf<T, Dim, Kind, K, Flux>::close(const RateColumns<Dim>& columns, c
     if constexpr (R::split)  // the work above is that of rounded velocities, and the rest belongs to the particle alone
       for (int a = 0; a < Dim; ++a)
         heating -= columns.acceleration(a, i) * (columns.velocity(a, i) - static_cast<double>(v[a][k]));
-    columns.heating(0, i) = heating;
-    columns.neighbour_sum(0, i) = Support::moment_scale * static_cast<double>(sums.moment[k]);
-    columns.approach_speed(0, i) = -static_cast<double>(sums.fastest[k]);
+    columns.specific_energy_rate(0, i) = heating;
+    columns.zeroth_moment(0, i) = Support::moment_scale * static_cast<double>(sums.moment[k]);
+    columns.largest_mu(0, i) = -static_cast<double>(sums.fastest[k]);
   }
 }
 

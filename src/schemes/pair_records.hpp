@@ -1,10 +1,10 @@
 #pragma once
-/// What a particle shows to its partners in a pair pass, packed into one contiguous record per particle and image.
+/// What a particle shows to its partners in a pair pass, packed into one contiguous record per particle and ghost.
 #include <cstddef>
 #include <span>
 #include <vector>
 
-#include "particles/boundary_images.hpp"
+#include "particles/ghosts.hpp"
 #include "particles/particles.hpp"
 #include "schemes/surroundings.hpp"
 
@@ -34,7 +34,6 @@ struct PairRules {
   std::vector<int> pieces;                ///< by body: bodies of one number are one continuum; empty: all are
   std::vector<double> reference_density;  ///< by material: rho0 [kg/m^3]
   std::vector<char> cut_by_cracks;        ///< by material: whether its damage tensor cuts the stress
-  Boundary boundary;
 };
 
 /// The piece that stands for whatever is behind a reflecting face.
@@ -79,22 +78,21 @@ struct PairRecord {
   static constexpr int press = normal + Dim;  ///< r^2 T' that acts on them [Pa]
   static constexpr int contact_size = press + stresses;
 
-  /// Fills one record for each particle, then one for each image, but for the stress.
+  /// Fills one record for each particle, then one for each ghost, but for the stress.
   /// Reads position, velocity, smoothing_length or smoothing_metric, mass, density, sound_speed, what the flux reads,
   /// and where they exist damage_tensor, start_position and bond.
-  static void pack(const Particles<Dim>& particles, const std::vector<Image>& images, const PairRules& rules,
+  static void pack(const Particles<Dim>& particles, const GhostList<Dim>& ghosts, const PairRules& rules,
                    const RecordScales& scales, std::vector<T>& records);
 
-  /// Fills the records of contact, but for the stress.
-  static void pack_contacts(const Particles<Dim>& particles, const std::vector<Image>& images, const PairRules& rules,
+  /// Fills the records of contact, but for the stress. Guests are in contact with nothing.
+  static void pack_contacts(const Particles<Dim>& particles, const GhostList<Dim>& ghosts, const PairRules& rules,
                             const Surroundings<Dim>& around, std::vector<T>& contacts);
 
-  /// Fills in the stress that acts on the partners. Reads pressure and where they exist deviatoric_stress and
-  /// damage_tensor and intact_share.
-  /// `contacts` may be empty.
-  static void pack_stress(const Particles<Dim>& particles, const std::vector<Image>& images, const PairRules& rules,
-                          const Surroundings<Dim>& around, std::vector<T>& records,
-                          std::vector<T>& contacts);
+  /// Fills in the stress that acts on the partners; that of guests acts as it is, uncorrected,
+  /// and on other pieces by its pressure alone. Reads pressure and where
+  /// they exist deviatoric_stress, damage_tensor and intact_share. `contacts` may be empty.
+  static void pack_stress(const Particles<Dim>& particles, const GhostList<Dim>& ghosts, const PairRules& rules,
+                          const Surroundings<Dim>& around, std::vector<T>& records, std::vector<T>& contacts);
 };
 
 /// The power of two just below the length.

@@ -70,169 +70,233 @@ ContactStress<Dim> corrected(const Mat<Dim>& sigma, const Surroundings<Dim>& aro
   return contact_stress<Dim>(sigma, sums.normal(), own, around.all(sums));
 }
 
-inline bool behind_a_wall(const Boundary& boundary, const Image& image) {
-  for (std::size_t a = 0; a < 3; ++a)
-    if (image.mirror[a] != 0 && boundary.kind[a] == BoundaryKind::reflecting) return true;
-  return false;
-}
+/// sigma of a particle, as its cracks let it through.
+template <int Dim, RecordKind Kind>
+class StressOf {
+ public:
+  StressOf(const Particles<Dim>& particles, const PairRules& rules)
+      : particles_(particles),
+        rules_(rules),
+        pressure_(particles.column(Field::pressure)),
+        deviator_(particles, Field::deviatoric_stress),
+        damage_(particles, Field::damage_tensor),
+        intact_share_(particles, Field::intact_share) {}
+
+  double pressure(std::size_t i) const { return pressure_[i]; }
+  Mat<Dim> operator()(std::size_t i) const {
+    const double scale = intact_share_.count ? intact_share_(0, i) : 1.0;
+    auto deviator = [&](std::size_t k) { return scale * deviator_(k, i); };
+    Symmetric<Dim> s = Symmetric<Dim>::Zero();
+    if (deviator_.count) {
+      if constexpr (Dim == 2)
+        s << deviator(0), deviator(1), deviator(2);
+      else
+        s << deviator(0), deviator(1), -deviator(0) - deviator(1), deviator(2), deviator(3), deviator(4);
+    }
+    Mat<Dim> sigma = matrix_of<Dim>(s);
+    if constexpr (Kind.cracked)
+      if (const Symmetric<Dim> cracks = cracks_of(particles_, damage_, rules_, i); !cracks.isZero(0))
+        sigma = transmitted<Dim>(sigma, matrix_of<Dim>(cracks));
+    for (int a = 0; a < Dim; ++a) sigma(a, a) -= pressure_[i];
+    return sigma;
+  }
+
+ private:
+  const Particles<Dim>& particles_;
+  const PairRules& rules_;
+  std::span<const double> pressure_;
+  Columns<Dim, const double> deviator_, damage_, intact_share_;
+};
+
+/// Fills the records of the particles of one owner, but for the stress.
+template <class T, int Dim, RecordKind Kind, class Flux>
+class Filler {
+  using R = PairRecord<T, Dim, Kind, Flux>;
+
+ public:
+  Filler(const Particles<Dim>& particles, const PairRules& rules, const RecordScales& scales)
+      : particles_(particles),
+        rules_(rules),
+        scales_(scales),
+        to_unit_(1 / scales.length_unit),
+        position_(particles, Field::position),
+        velocity_(particles, Field::velocity),
+        metric_(particles, Field::smoothing_metric),
+        damage_(particles, Field::damage_tensor),
+        start_(particles, Field::start_position),
+        bond_(particles, Field::bond),
+        flux_(particles, scales),
+        h_(particles.column(Field::smoothing_length)),
+        mass_(particles.column(Field::mass)),
+        density_(particles.column(Field::density)),
+        sound_speed_(particles.column(Field::sound_speed)),
+        body_(particles.label(Label::body)),
+        material_(particles.label(Label::material)) {}
+
+  void fill(std::size_t i, T* r) const {
+    const auto power = record_detail::power<Dim>;
+    for (std::size_t a = 0; a < Dim; ++a) {
+      const int axis = static_cast<int>(a);
+      set_position<T, R>(r, R::x + axis, R::x_low + axis, position_(a, i) * to_unit_);
+      r[R::v + a] = static_cast<T>(velocity_(a, i));
+    }
+    const double h_reciprocal = scales_.length_unit / h_[i];
+    if constexpr (Kind.asph) {
+      for (std::size_t k = 0; k < metric_.count; ++k)
+        r[R::metric + k] = static_cast<T>(metric_(k, i) * scales_.length_unit * scales_.length_unit);
+      r[R::slope_norm] = static_cast<T>(scales_.kernel_norm * power(h_reciprocal));
+    } else {
+      r[R::h] = static_cast<T>(0.05 * h_[i] * to_unit_);
+      r[R::reach_reciprocal] = static_cast<T>(h_reciprocal / scales_.support);
+      r[R::slope_norm] = static_cast<T>(0.5 * scales_.slope * scales_.kernel_norm * power(h_reciprocal) * h_reciprocal *
+                                        (scales_.slope_over_r ? 1 : h_reciprocal));
+    }
+    const double reference = rules_.reference_density[static_cast<std::size_t>(material_[i])];
+    r[R::volume] = static_cast<T>(mass_[i] / reference * power(to_unit_));
+    r[R::expansion] = static_cast<T>(reference / density_[i]);
+    r[R::compression] = static_cast<T>(density_[i] / reference);
+    r[R::density] = static_cast<T>(density_[i]);
+    r[R::sound_speed] = static_cast<T>(sound_speed_[i]);
+    r[R::mass] = static_cast<T>(mass_[i] * power(to_unit_));
+    if constexpr (Kind.stress)
+      r[R::piece] = rules_.pieces.empty() ? T(0) : static_cast<T>(rules_.pieces[static_cast<std::size_t>(body_[i])]);
+    if constexpr (Kind.bonded) {
+      for (std::size_t a = 0; a < Dim; ++a) {
+        const int axis = static_cast<int>(a);
+        set_position<T, R>(r, R::place + axis, R::place_low + axis, start_(a, i) * to_unit_);
+      }
+      r[R::bond] = static_cast<T>(bond_(0, i) * scales_.support * h_[i] * to_unit_);
+    }
+    if constexpr (Kind.cracked) {
+      const Symmetric<Dim> cracks = cracks_of(particles_, damage_, rules_, i);
+      for (int k = 0; k < symmetric_size<Dim>; ++k) r[R::damage + k] = static_cast<T>(cracks[k]);
+    }
+    flux_.pack(i, r + R::flux);
+  }
+
+  /// Makes the record of particle i that of its ghost.
+  void transform(std::size_t i, const Transform& seen, T* r) const {
+    for (int axis = 0; axis < Dim; ++axis) {
+      if (!seen.moves(axis)) continue;
+      const auto a = static_cast<std::size_t>(axis);
+      const auto moved = [&](double x) { return seen.position(axis, x) * to_unit_; };
+      set_position<T, R>(r, R::x + axis, R::x_low + axis, moved(position_(a, i)));
+      if constexpr (Kind.bonded) set_position<T, R>(r, R::place + axis, R::place_low + axis, moved(start_(a, i)));
+      if (seen.mirrors(axis)) mirror<T, R, Dim, Kind>(r, axis);
+    }
+    // Piece 0 is gas: it presses against the wall by its own images.
+    if constexpr (Kind.stress)
+      if (seen.behind_wall && r[R::piece] != 0) r[R::piece] = wall;
+  }
+
+ private:
+  const Particles<Dim>& particles_;
+  const PairRules& rules_;
+  RecordScales scales_;
+  double to_unit_;
+  Columns<Dim, const double> position_, velocity_, metric_, damage_, start_, bond_;
+  typename R::FluxRecord flux_;
+  std::span<const double> h_, mass_, density_, sound_speed_;
+  std::span<const std::int32_t> body_, material_;
+};
 
 }  // namespace record_detail
 
 template <class T, int Dim, RecordKind Kind, class Flux>
-void PairRecord<T, Dim, Kind, Flux>::pack(const Particles<Dim>& particles, const std::vector<Image>& images,
+void PairRecord<T, Dim, Kind, Flux>::pack(const Particles<Dim>& particles, const GhostList<Dim>& ghosts,
                                           const PairRules& rules, const RecordScales& scales, std::vector<T>& records) {
-  using R = PairRecord;
-  const std::size_t n = particles.size(), needed = (n + images.size()) * R::size;
+  using Filler = record_detail::Filler<T, Dim, Kind, Flux>;
+  const std::size_t n = particles.size(), needed = (n + ghosts.size()) * size;
   if (records.size() < needed) records.resize(needed + needed / 8);
-  const double to_unit = 1 / scales.length_unit;
-  const Columns<Dim, const double> position(particles, Field::position), velocity(particles, Field::velocity),
-      metric(particles, Field::smoothing_metric), damage(particles, Field::damage_tensor),
-      start(particles, Field::start_position), bond(particles, Field::bond);
-  const FluxRecord flux(particles, scales);
-  const auto h = particles.column(Field::smoothing_length), mass = particles.column(Field::mass),
-             density = particles.column(Field::density), sound_speed = particles.column(Field::sound_speed);
-  const auto body = particles.label(Label::body), material = particles.label(Label::material);
-  parallel_for(0, n, [&](std::size_t i) {
-    T* r = records.data() + i * R::size;
-    for (std::size_t a = 0; a < Dim; ++a) {
-      const int axis = static_cast<int>(a);
-      record_detail::set_position<T, R>(r, R::x + axis, R::x_low + axis, position(a, i) * to_unit);
-      r[R::v + a] = static_cast<T>(velocity(a, i));
-    }
-    const double h_reciprocal = scales.length_unit / h[i];
-    if constexpr (Kind.asph) {
-      for (std::size_t k = 0; k < metric.count; ++k)
-        r[R::metric + k] = static_cast<T>(metric(k, i) * scales.length_unit * scales.length_unit);
-      r[R::slope_norm] = static_cast<T>(scales.kernel_norm * record_detail::power<Dim>(h_reciprocal));
-    } else {
-      r[R::h] = static_cast<T>(0.05 * h[i] * to_unit);
-      r[R::reach_reciprocal] = static_cast<T>(h_reciprocal / scales.support);
-      r[R::slope_norm] =
-          static_cast<T>(0.5 * scales.slope * scales.kernel_norm * record_detail::power<Dim>(h_reciprocal) *
-                         h_reciprocal * (scales.slope_over_r ? 1 : h_reciprocal));
-    }
-    const double reference = rules.reference_density[static_cast<std::size_t>(material[i])];
-    r[R::volume] = static_cast<T>(mass[i] / reference * record_detail::power<Dim>(to_unit));
-    r[R::expansion] = static_cast<T>(reference / density[i]);
-    r[R::compression] = static_cast<T>(density[i] / reference);
-    r[R::density] = static_cast<T>(density[i]);
-    r[R::sound_speed] = static_cast<T>(sound_speed[i]);
-    r[R::mass] = static_cast<T>(mass[i] * record_detail::power<Dim>(to_unit));
-    if constexpr (Kind.stress)
-      r[R::piece] = rules.pieces.empty() ? T(0) : static_cast<T>(rules.pieces[static_cast<std::size_t>(body[i])]);
-    if constexpr (Kind.bonded) {
-      for (std::size_t a = 0; a < Dim; ++a) {
-        const int axis = static_cast<int>(a);
-        record_detail::set_position<T, R>(r, R::place + axis, R::place_low + axis, start(a, i) * to_unit);
-      }
-      r[R::bond] = static_cast<T>(bond(0, i) * scales.support * h[i] * to_unit);
-    }
-    if constexpr (Kind.cracked) {
-      const Symmetric<Dim> cracks = record_detail::cracks_of(particles, damage, rules, i);
-      for (int k = 0; k < symmetric_size<Dim>; ++k) r[R::damage + k] = static_cast<T>(cracks[k]);
-    }
-    flux.pack(i, r + R::flux);
-  });
-  for (std::size_t k = 0; k < images.size(); ++k) {
-    const Image& image = images[k];
-    T* r = records.data() + (n + k) * R::size;
-    std::copy_n(records.data() + image.source * R::size, R::size, r);
-    for (int a = 0; a < Dim; ++a) {
-      if (image.shift[a] == 0 && image.mirror[a] == 0) continue;
-      const auto moved = [&](double x) { return image_position(rules.boundary, image, a, x) * to_unit; };
-      record_detail::set_position<T, R>(r, R::x + a, R::x_low + a,
-                                        moved(position(static_cast<std::size_t>(a), image.source)));
-      if constexpr (Kind.bonded)
-        record_detail::set_position<T, R>(r, R::place + a, R::place_low + a,
-                                          moved(start(static_cast<std::size_t>(a), image.source)));
-      if (image.mirror[a] != 0) record_detail::mirror<T, R, Dim, Kind>(r, a);
-    }
-    // Piece 0 is gas: it presses against the wall by its own images.
-    if constexpr (Kind.stress)
-      if (r[R::piece] != 0 && record_detail::behind_a_wall(rules.boundary, image)) r[R::piece] = wall;
+  std::vector<Filler> fillers{Filler(particles, rules, scales)};  // by owner
+  for (const Particles<Dim>* guest : ghosts.guests) fillers.emplace_back(*guest, rules, scales);
+  parallel_for(0, n, [&](std::size_t i) { fillers[0].fill(i, records.data() + i * size); });
+  for (std::size_t k = 0; k < ghosts.size(); ++k) {
+    const Ghost& ghost = ghosts.ghosts[k];
+    T* r = records.data() + (n + k) * size;
+    if (ghost.owner == 0)
+      std::copy_n(records.data() + ghost.source * size, size, r);
+    else
+      fillers[ghost.owner].fill(ghost.source, r);
+    fillers[ghost.owner].transform(ghost.source, ghosts.transform(ghost), r);
   }
 }
 
 template <class T, int Dim, RecordKind Kind, class Flux>
-void PairRecord<T, Dim, Kind, Flux>::pack_contacts(const Particles<Dim>& particles, const std::vector<Image>& images,
+void PairRecord<T, Dim, Kind, Flux>::pack_contacts(const Particles<Dim>& particles, const GhostList<Dim>& ghosts,
                                                    const PairRules& rules, const Surroundings<Dim>& around,
                                                    std::vector<T>& contacts) {
-  using R = PairRecord;
-  const std::size_t n = particles.size(), needed = (n + images.size()) * R::contact_size;
+  const std::size_t n = particles.size(), needed = (n + ghosts.size()) * contact_size;
   if (contacts.size() < needed) contacts.resize(needed + needed / 8);
   const auto h = particles.column(Field::smoothing_length);
   const auto body = particles.label(Label::body);
   parallel_for(0, n, [&](std::size_t i) {
-    T* r = contacts.data() + i * R::contact_size;
+    T* r = contacts.data() + i * contact_size;
     const auto& sums = around.sums[i];
-    const Vec<Dim> normal = sums.normal();
-    const double size = rules.sizes[static_cast<std::size_t>(body[i])];
-    r[R::contact] = static_cast<T>(record_detail::contact_of(sums.occupied, around.half_space, size, h[i]));
-    for (int a = 0; a < Dim; ++a) r[R::normal + a] = static_cast<T>(normal[a]);
+    const Vec<Dim> outward = sums.normal();
+    const double particle_size = rules.sizes[static_cast<std::size_t>(body[i])];
+    r[contact] = static_cast<T>(record_detail::contact_of(sums.occupied, around.half_space, particle_size, h[i]));
+    for (int a = 0; a < Dim; ++a) r[normal + a] = static_cast<T>(outward[a]);
   });
-  for (std::size_t k = 0; k < images.size(); ++k) {
-    const Image& image = images[k];
-    T* r = contacts.data() + (n + k) * R::contact_size;
-    std::copy_n(contacts.data() + image.source * R::contact_size, Dim + 1, r);
+  for (std::size_t k = 0; k < ghosts.size(); ++k) {
+    const Ghost& ghost = ghosts.ghosts[k];
+    T* r = contacts.data() + (n + k) * contact_size;
+    if (ghost.owner != 0) {  // nobody knows the surroundings of a guest
+      std::fill_n(r, Dim + 1, T(0));
+      continue;
+    }
+    std::copy_n(contacts.data() + ghost.source * contact_size, Dim + 1, r);
     for (int a = 0; a < Dim; ++a)
-      if (image.mirror[a] != 0) r[R::normal + a] *= -1;
+      if (ghosts.transform(ghost).mirrors(a)) r[normal + a] *= -1;
   }
 }
 
 template <class T, int Dim, RecordKind Kind, class Flux>
-void PairRecord<T, Dim, Kind, Flux>::pack_stress(const Particles<Dim>& particles, const std::vector<Image>& images,
-                                                 const PairRules& rules, const Surroundings<Dim>& around, std::vector<T>& records,
-                                                 std::vector<T>& contacts) {
-  using R = PairRecord;
+void PairRecord<T, Dim, Kind, Flux>::pack_stress(const Particles<Dim>& particles, const GhostList<Dim>& ghosts,
+                                                 const PairRules& rules, const Surroundings<Dim>& around,
+                                                 std::vector<T>& records, std::vector<T>& contacts) {
+  using StressOf = record_detail::StressOf<Dim, Kind>;
   const std::size_t n = particles.size();
-  const auto pressure = particles.column(Field::pressure);
-  const Columns<Dim, const double> deviatoric_stress(particles, Field::deviatoric_stress),
-      damage(particles, Field::damage_tensor), intact_share(particles, Field::intact_share);
-  parallel_for(0, n, [&](std::size_t i) {
-    T* r = records.data() + i * R::size;
-    const double expansion = static_cast<double>(r[R::expansion]), squared = expansion * expansion;
+  std::vector<StressOf> stress_of{StressOf(particles, rules)};  // by owner
+  for (const Particles<Dim>* guest : ghosts.guests) stress_of.emplace_back(*guest, rules);
+  /// of(sigma) gives what acts on own neighbours, and on other pieces.
+  const auto fill = [&](const StressOf& source, std::size_t i, std::size_t place, const auto& of) {
+    T* r = records.data() + place * size;
+    const double rho0_over_rho = static_cast<double>(r[expansion]), squared = rho0_over_rho * rho0_over_rho;
     if constexpr (!Kind.stress) {
-      r[R::stress] = static_cast<T>(-squared * pressure[i]);
+      r[stress] = static_cast<T>(-squared * source.pressure(i));
     } else {
-      const double scale = intact_share.count ? intact_share(0, i) : 1.0;
-      auto deviator = [&](std::size_t k) { return scale * deviatoric_stress(k, i); };
-      Symmetric<Dim> s = Symmetric<Dim>::Zero();
-      if (deviatoric_stress.count) {
-        if constexpr (Dim == 2)
-          s << deviator(0), deviator(1), deviator(2);
-        else
-          s << deviator(0), deviator(1), -deviator(0) - deviator(1), deviator(2), deviator(3), deviator(4);
-      }
-      Mat<Dim> sigma = matrix_of<Dim>(s);
-      if constexpr (Kind.cracked)
-        if (const Symmetric<Dim> cracks = record_detail::cracks_of(particles, damage, rules, i); !cracks.isZero(0))
-          sigma = transmitted<Dim>(sigma, matrix_of<Dim>(cracks));
-      for (int a = 0; a < Dim; ++a) sigma(a, a) -= pressure[i];
-
-      const auto [own, others] = record_detail::corrected<Dim>(sigma, around, i);
+      const auto [own, others] = of(source(i));
       for (int a = 0; a < Dim; ++a)
         for (int b = 0; b < Dim; ++b) {
-          r[R::stress + a * Dim + b] = static_cast<T>(squared * own(a, b));
+          r[stress + a * Dim + b] = static_cast<T>(squared * own(a, b));
           if (!contacts.empty())
-            contacts[i * R::contact_size + static_cast<std::size_t>(R::press + a * Dim + b)] =
+            contacts[place * contact_size + static_cast<std::size_t>(press + a * Dim + b)] =
                 static_cast<T>(squared * others(a, b));
         }
     }
+  };
+  parallel_for(0, n, [&](std::size_t i) {
+    fill(stress_of[0], i, i, [&](const Mat<Dim>& sigma) { return record_detail::corrected<Dim>(sigma, around, i); });
   });
-  for (std::size_t k = 0; k < images.size(); ++k) {
-    const Image& image = images[k];
-    const T* source = records.data() + image.source * R::size;
-    T* r = records.data() + (n + k) * R::size;
-    std::copy_n(source + R::stress, R::stresses, r + R::stress);
-    if constexpr (Kind.stress) {
-      for (int a = 0; a < Dim; ++a)
-        if (image.mirror[a] != 0) record_detail::mirror_tensor<Dim>(r + R::stress, a);
-      if (contacts.empty()) continue;
-      T* t = contacts.data() + (n + k) * R::contact_size + R::press;
-      std::copy_n(contacts.data() + image.source * R::contact_size + R::press, R::stresses, t);
-      for (int a = 0; a < Dim; ++a)
-        if (image.mirror[a] != 0) record_detail::mirror_tensor<Dim>(t, a);
+  for (std::size_t k = 0; k < ghosts.size(); ++k) {
+    const Ghost& ghost = ghosts.ghosts[k];
+    T* r = records.data() + (n + k) * size + stress;
+    T* t = contacts.empty() ? nullptr : contacts.data() + (n + k) * contact_size + press;
+    if (ghost.owner == 0) {
+      std::copy_n(records.data() + ghost.source * size + stress, stresses, r);
+      if (t) std::copy_n(contacts.data() + ghost.source * contact_size + press, stresses, t);
+    } else {
+      fill(stress_of[ghost.owner], ghost.source, n + k, [](const Mat<Dim>& sigma) {
+        return ContactStress<Dim>{sigma, std::min(0.0, sigma.trace() / Dim) * Mat<Dim>::Identity()};
+      });
     }
+    if constexpr (Kind.stress)
+      for (int a = 0; a < Dim; ++a) {
+        if (!ghosts.transform(ghost).mirrors(a)) continue;
+        record_detail::mirror_tensor<Dim>(r, a);
+        if (t) record_detail::mirror_tensor<Dim>(t, a);
+      }
   }
 }
 

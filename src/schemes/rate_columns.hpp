@@ -11,16 +11,16 @@ struct RateColumns {
       : mass(p, Field::mass),
         velocity(p, Field::velocity),
         acceleration(p, Field::acceleration),
-        heating(p, Field::heating),
-        neighbour_sum(p, Field::neighbour_sum),
-        approach_speed(p, Field::approach_speed),
+        specific_energy_rate(p, Field::specific_energy_rate),
+        zeroth_moment(p, Field::zeroth_moment),
+        largest_mu(p, Field::largest_mu),
         velocity_gradient(p, Field::velocity_gradient),
-        coupled_gradient(p, Field::coupled_gradient),
+        uncut_gradient(p, Field::uncut_gradient),
         stretch(p, Field::stretch),
         density(p, Field::density) {}
 
   Columns<Dim, const double> mass, velocity;
-  Columns<Dim, double> acceleration, heating, neighbour_sum, approach_speed, velocity_gradient, coupled_gradient,
+  Columns<Dim, double> acceleration, specific_energy_rate, zeroth_moment, largest_mu, velocity_gradient, uncut_gradient,
       stretch, density;
 };
 

@@ -14,10 +14,10 @@ class SupportSize {
  public:
   SupportSize(Kernel kernel, int dim, double nodes_per_h);
 
-  /// Effective n_h of a particle whose sum over neighbours is `neighbour_sum`. With no neighbours: half the target.
-  double effective_nodes_per_h(double neighbour_sum) const {
-    if (!(neighbour_sum > 0)) return 0.5 * target_;
-    const double psi0 = dim_ == 2 ? std::sqrt(neighbour_sum) : std::cbrt(neighbour_sum);
+  /// Effective n_h of a particle whose sum over neighbours is `zeroth_moment`. With no neighbours: half the target.
+  double effective_nodes_per_h(double zeroth_moment) const {
+    if (!(zeroth_moment > 0)) return 0.5 * target_;
+    const double psi0 = dim_ == 2 ? std::sqrt(zeroth_moment) : std::cbrt(zeroth_moment);
     const double place = psi0 * per_psi0_;
     const auto k = static_cast<std::size_t>(place);
     if (k + 1 >= nodes_.size()) return nodes_.back() * place / static_cast<double>(nodes_.size() - 1);
@@ -26,8 +26,8 @@ class SupportSize {
 
   /// Factor to apply to h so that n_h moves to its target: 1 - a + a s with s = target/effective in [1/4, 4], and
   /// a = 0.4 (1 + s^2) for s < 1, 0.4 (1 + s^-3) otherwise (eqs 2-3).
-  double growth(double neighbour_sum) const {
-    const double s = std::clamp(target_ / effective_nodes_per_h(neighbour_sum), 0.25, 4.0);
+  double growth(double zeroth_moment) const {
+    const double s = std::clamp(target_ / effective_nodes_per_h(zeroth_moment), 0.25, 4.0);
     const double a = s < 1 ? 0.4 * (1 + s * s) : 0.4 * (1 + 1 / (s * s * s));
     return 1 - a + a * s;
   }

@@ -47,7 +47,7 @@ double crack_speed(const Particles<Dim>& p, const Material& material, std::size_
 /// damage, and what the damage becomes is an integral.
 template <int Dim>
 double scalar_damage(Particles<Dim>& p, const Material& material, std::size_t i, double dt) {
-  double& crack = p.column(Field::crack)[i];
+  double& crack = p.column(Field::crack_length)[i];
   double& strain = p.column(Field::local_strain)[i];
   const double weakest = p.column(Field::flaw_strain)[i], before = strain;
   strain = opening_strain<Dim>(p.column(Field::pressure)[i], deviator<Dim>(p, i), weakest, material.elastic->young(),

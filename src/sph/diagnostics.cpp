@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "base/parallel.hpp"
-#include "particles/boundary_images.hpp"
 #include "sph/particle_state.hpp"
 
 namespace ejecta {
@@ -70,10 +69,7 @@ PeakPressures peak_pressures(const Particles<Dim>& particles, std::int32_t body)
   return {seen.front().first, median->first};
 }
 
-Kept kept_between(const Boundary& boundary) {
-  return {std::ranges::none_of(boundary.kind, mirrors),
-          std::ranges::all_of(boundary.kind, [](BoundaryKind k) { return k == BoundaryKind::open; })};
-}
+Kept kept_between(const Boundary& boundary) { return {!boundary.any(mirrors), !boundary.bounded()}; }
 
 template Totals totals<2>(const Particles<2>&);
 template Totals totals<3>(const Particles<3>&);

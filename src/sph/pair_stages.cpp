@@ -38,7 +38,7 @@ double density_share(const Scene& scene, int dim) {
 template <int Dim>
 void hold_density(Sph<Dim>& sph, const Material& material, double share, std::size_t i) {
   Particles<Dim>& p = sph.particles;
-  const double sum = p.column(Field::neighbour_sum)[i], h = p.column(Field::smoothing_length)[i];
+  const double sum = p.column(Field::zeroth_moment)[i], h = p.column(Field::smoothing_length)[i];
   if (!(sum > 0)) return;
   const double nodes = sph.support->effective_nodes_per_h(sum), per_spacing = nodes / h;
   const double by_spacing =

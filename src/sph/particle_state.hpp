@@ -24,8 +24,8 @@ double distension_of(const Particles<Dim>& p, const Material& material, std::siz
 /// motion across a crack.
 template <int Dim>
 Mat<Dim> straining_gradient(const Particles<Dim>& p, const Material& material, std::size_t i) {
-  const bool coupled = material.tensor_damage() && p.has(Field::coupled_gradient);
-  return p.tensor(coupled ? Field::coupled_gradient : Field::velocity_gradient, i);
+  const bool coupled = material.tensor_damage() && p.has(Field::uncut_gradient);
+  return p.tensor(coupled ? Field::uncut_gradient : Field::velocity_gradient, i);
 }
 
 /// Whether the particle belongs to a body that keeps its velocity.

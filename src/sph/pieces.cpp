@@ -29,8 +29,7 @@ std::vector<int> pieces_of(const Scene& scene, const std::vector<Material>& mate
 }
 
 bool anything_touches(const Scene& scene, const std::vector<int>& pieces) {
-  const bool wall = std::find(scene.boundary.kind.begin(), scene.boundary.kind.end(), BoundaryKind::reflecting) !=
-                    scene.boundary.kind.end();
+  const bool wall = scene.boundary.any([](BoundaryKind kind) { return kind == BoundaryKind::reflecting; });
   return std::any_of(pieces.begin(), pieces.end(),
                      [&](int piece) { return piece != pieces.front() || (wall && piece != 0); });
 }

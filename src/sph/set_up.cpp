@@ -10,11 +10,11 @@
 #include "scene/units.hpp"
 #include "schemes/kernels.hpp"
 #include "schemes/pair_records.hpp"
-#include "sph/pieces.hpp"
-#include "sph/seedlings.hpp"
-#include "sph/stages.hpp"
 #include "sph/criteria.hpp"
 #include "sph/diagnostics.hpp"
+#include "sph/pieces.hpp"
+#include "sph/placement.hpp"
+#include "sph/stages.hpp"
 
 namespace ejecta {
 
@@ -40,8 +40,8 @@ void check_periodic_width(const Scene& scene) {
   const double reach = kernel_support(scene.numerics.kernel) * scene.numerics.nodes_per_h * spacing;
   std::vector<std::string> problems;
   for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dimension); ++a) {
-    const double width = scene.boundary.max[a] - scene.boundary.min[a];
-    if (scene.boundary.kind[a] == BoundaryKind::periodic && width < reach)
+    const double width = scene.boundary.length(a);
+    if (scene.boundary.periodic(a) && width < reach)
       problems.push_back(
           fmt::format("{}: boundary.{}: expected a periodic box wider than the kernel reaches at the "
                       "start, {}, got {}",
@@ -52,7 +52,7 @@ void check_periodic_width(const Scene& scene) {
 
 /// Puts the formulas of the bodies in place of their uniform values.
 template <int Dim>
-void apply_profiles(Sph<Dim>& sph, const std::vector<Seedling<Dim>>& seedlings) {
+void apply_profiles(Sph<Dim>& sph, const std::vector<Placement<Dim>>& placements) {
   Particles<Dim>& p = sph.particles;
   for (std::size_t b = 0; b < sph.scene.bodies.size(); ++b) {
     const Body& body = sph.scene.bodies[b];
@@ -61,9 +61,9 @@ void apply_profiles(Sph<Dim>& sph, const std::vector<Seedling<Dim>>& seedlings) 
     const auto evaluate = [&](const std::string& key, const std::string& text, auto&& store) {
       if (text.empty()) return;
       const Formula formula(text);
-      for (std::size_t i = 0; i < seedlings.size(); ++i) {
-        if (seedlings[i].body != static_cast<int>(b)) continue;
-        const FormulaPoint point = formula_point<Dim>(body, seedlings[i].x, seedlings[i].spacing);
+      for (std::size_t i = 0; i < placements.size(); ++i) {
+        if (placements[i].body != static_cast<int>(b)) continue;
+        const FormulaPoint point = formula_point<Dim>(body, placements[i].x, placements[i].spacing);
         const double value = formula(point);
         if (!std::isfinite(value)) refuse_value(body, key, "a finite number", value, point);
         store(i, value);
@@ -90,13 +90,13 @@ double initial_energy(const Body& body, const Material& material, double density
 }
 
 template <int Dim>
-void plant(Sph<Dim>& sph, const std::vector<Seedling<Dim>>& seedlings) {
+void fill_columns(Sph<Dim>& sph, const std::vector<Placement<Dim>>& placements) {
   Particles<Dim>& p = sph.particles;
   const Scene& scene = sph.scene;
   std::vector<double> per_body(scene.bodies.size(), 0);
-  for (const auto& s : seedlings) per_body[static_cast<std::size_t>(s.body)] += 1;
-  parallel_for(0, seedlings.size(), [&](std::size_t i) {
-    const auto& s = seedlings[i];
+  for (const auto& s : placements) per_body[static_cast<std::size_t>(s.body)] += 1;
+  parallel_for(0, placements.size(), [&](std::size_t i) {
+    const auto& s = placements[i];
     const Body& body = scene.bodies[static_cast<std::size_t>(s.body)];
     const Material& material = sph.materials[static_cast<std::size_t>(s.material)];
     p.set_vector(Field::position, i, s.x);
@@ -152,10 +152,10 @@ std::unique_ptr<Sph<Dim>> set_up(const Scene& scene, const std::vector<Material>
   sph->materials = materials;
   sph->body_material = number_materials(scene, materials);
   sph->stages = choose_stages<Dim>(scene, materials);
-  const auto seedlings = sow<Dim>(scene, materials, sph->body_material);
-  sph->particles.allocate(seedlings.size(), fields_of(sph->stages));
-  plant(*sph, seedlings);
-  apply_profiles(*sph, seedlings);
+  const auto placements = place_bodies<Dim>(scene, materials, sph->body_material);
+  sph->particles.allocate(placements.size(), fields_of(sph->stages));
+  fill_columns(*sph, placements);
+  apply_profiles(*sph, placements);
 
   const Numerics& numerics = scene.numerics;
   PairPassSettings settings;
@@ -166,14 +166,13 @@ std::unique_ptr<Sph<Dim>> set_up(const Scene& scene, const std::vector<Material>
   settings.stress = settings.gradient_correction || sph->particles.has(Field::deviatoric_stress);
   settings.velocity_gradient = sph->particles.has(Field::velocity_gradient);
   settings.asph = sph->particles.has(Field::smoothing_metric);
-  settings.cracked = sph->particles.has(Field::coupled_gradient);
+  settings.cracked = sph->particles.has(Field::uncut_gradient);
   for (const Material& m : materials) {
     settings.rules.reference_density.push_back(m.bulk_density());
     settings.rules.cut_by_cracks.push_back(m.cuts_pairs());
   }
   for (const Body& body : scene.bodies) settings.rules.sizes.push_back(scene.spacing * body.spacing_factor);
   settings.rules.pieces = pieces_of(scene, materials, sph->body_material);
-  settings.rules.boundary = scene.boundary;
   settings.contacts = settings.bonded || anything_touches(scene, settings.rules.pieces);
   settings.friction = scene.contact.friction;
   // Sums of masses spread a contact over a kernel, and weights by mass go with them as far as those hold; densities by

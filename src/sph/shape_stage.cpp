@@ -27,7 +27,7 @@ struct Round {
   }
 };
 
-/// Particles, then images, while they vote.
+/// Particles, then ghosts, while they vote.
 template <int Dim>
 struct Scratch {
   struct Place {
@@ -44,35 +44,41 @@ struct Scratch {
   }
 };
 
-/// Where particles and their images are, and of what they are made.
+/// Where particles and ghosts are, and of what they are made.
 template <int Dim>
 void place_voters(Sph<Dim>& sph, Scratch<Dim>& scratch) {
   const Particles<Dim>& p = sph.particles;
-  const auto& images = sph.lists.images();
+  const GhostList<Dim>& ghosts = sph.lists.ghosts();
   const std::size_t n = p.size();
   auto& places = scratch.places;
-  places.resize(n + images.size());
-  scratch.votes.resize(n + images.size());
+  places.resize(n + ghosts.size());
+  scratch.votes.resize(n + ghosts.size());
   scratch.neighbours.resize(n);
   const auto material = p.label(Label::material);
   parallel_for(0, n, [&](std::size_t i) {
     places[i] = {p.vector(Field::position, i), static_cast<double>(material[i])};
   });
-  for (std::size_t k = 0; k < images.size(); ++k) {
-    auto& place = places[n + k] = places[images[k].source];
-    for (int a = 0; a < Dim; ++a) place.x[a] = image_position(sph.scene.boundary, images[k], a, place.x[a]);
+  for (std::size_t k = 0; k < ghosts.size(); ++k) {
+    const Ghost& ghost = ghosts.ghosts[k];
+    const Transform& seen = ghosts.transform(ghost);
+    const Particles<Dim>& owner = ghosts.owner(ghost, p);
+    auto& place = places[n + k];
+    place = {owner.vector(Field::position, ghost.source),
+             static_cast<double>(owner.label(Label::material)[ghost.source])};
+    for (int a = 0; a < Dim; ++a) place.x[a] = seen.position(a, place.x[a]);
   }
 }
 
-/// Images vote as their sources do, seen in the mirror.
+/// Ghosts vote as their sources do, seen in the mirror; guests do not.
 template <int Dim>
 void mirror_votes(const Sph<Dim>& sph, Scratch<Dim>& scratch) {
-  const auto& images = sph.lists.images();
+  const GhostList<Dim>& ghosts = sph.lists.ghosts();
   const std::size_t n = sph.particles.size();
-  for (std::size_t k = 0; k < images.size(); ++k) {
-    auto& vote = scratch.votes[n + k] = scratch.votes[images[k].source];
+  for (std::size_t k = 0; k < ghosts.size(); ++k) {
+    const Ghost& ghost = ghosts.ghosts[k];
+    auto& vote = scratch.votes[n + k] = ghost.owner == 0 ? scratch.votes[ghost.source] : ShapeVote<Dim>{};
     for (int a = 0; a < Dim; ++a)
-      if (images[k].mirror[a] != 0) mirror_symmetric<Dim>(vote.log_covariance.data(), a);
+      if (ghosts.transform(ghost).mirrors(a)) mirror_symmetric<Dim>(vote.log_covariance.data(), a);
   }
 }
 
@@ -163,7 +169,7 @@ Round apply_votes(Sph<Dim>& sph, const Scratch<Dim>& scratch, bool sum_neighbour
         const bool keep = mean.empty(k) || scratch.neighbours[i] < limits.fewest_neighbours;
         const Mat<Dim> before = p.symmetric(Field::smoothing_metric, i);
         p.set_symmetric(Field::smoothing_metric, i, reshaped<Dim>(before, mean.shrunk(k), keep, limits, actions));
-        if (sum_neighbours) p.column(Field::neighbour_sum)[i] = sum[k];
+        if (sum_neighbours) p.column(Field::zeroth_moment)[i] = sum[k];
         round += {{1, actions.kept, actions.change, actions.aspect}, actions.moved};
       });
     });

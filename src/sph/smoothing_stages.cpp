@@ -40,7 +40,7 @@ void smoothing_lengths(Sph<Dim>& sph) {
       const Bounds bounds = bounds_on_h(sph, sph.materials[m], i);
       double& h = p.column(Field::smoothing_length)[i];
       const double before = h;
-      h = std::clamp(h * sph.support->growth(p.column(Field::neighbour_sum)[i]), bounds.least, bounds.most);
+      h = std::clamp(h * sph.support->growth(p.column(Field::zeroth_moment)[i]), bounds.least, bounds.most);
       if (!tensor) return;
       const double factor = (before / h) * (before / h);
       for (int k = 0; k < symmetric_size<Dim>; ++k) p.column(Field::smoothing_metric, k)[i] *= factor;

@@ -89,7 +89,7 @@ std::size_t Sph<Dim>::bytes() const {
 template <int Dim>
 double mean_neighbours(const Sph<Dim>& sph) {
   const double radius = kernel_support(sph.scene.numerics.kernel);
-  const auto sum = sph.particles.column(Field::neighbour_sum);
+  const auto sum = sph.particles.column(Field::zeroth_moment);
   const double unit_ball = Dim == 2 ? std::numbers::pi : 4 * std::numbers::pi / 3;
   return parallel_sum<double>(sum.size(),
                               [&](std::size_t i) {

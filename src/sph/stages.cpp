@@ -68,12 +68,12 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
     add("carried smoothing", Fields{velocity_gradient, smoothing_metric}.with(bonded, {bond}),
         {smoothing_metric, smoothing_length}, carry_smoothing<Dim>);
   add_work("neighbours", Fields{position, velocity, smoothing_length}.with(tensor, {smoothing_metric}),
-      Fields{}.with(bounded(scene.boundary), {position, velocity}), neighbours<Dim>());
+           Fields{}.with(scene.boundary.bounded(), {position, velocity}), neighbours<Dim>());
   if (tensor)
     add_work("shapes", Fields{position, mass, smoothing_length, smoothing_metric}.with(bonded, {bond}),
-        {smoothing_length, smoothing_metric, neighbour_sum}, vote_shapes<Dim>());
+             {smoothing_length, smoothing_metric, zeroth_moment}, vote_shapes<Dim>());
   if (!continuity)
-    add("density", {position, smoothing_length, mass}, {density, neighbour_sum, smoothing_length},
+    add("density", {position, smoothing_length, mass}, {density, zeroth_moment, smoothing_length},
         summation_density<Dim>);
   add("equation of state", Fields{density, specific_energy}.with(porous, {distension}),
       Fields{pressure, sound_speed}
@@ -90,8 +90,7 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
             .with(shears, {shear_damage})
             .with(variable_shear, {shear_modulus}),
         Fields{deviatoric_stress, plastic_strain}.with(shears, {shear_damage}), strength<Dim>);
-  if (bonded)
-    add("bonds", Fields{stretch, density, bond}.with(yields, {plastic_strain}), {bond}, bonds<Dim>);
+  if (bonded) add("bonds", Fields{stretch, density, bond}.with(yields, {plastic_strain}), {bond}, bonds<Dim>);
   if (breaks)
     add("damage",
         Fields{Field::damage, pressure}
@@ -101,12 +100,12 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
             .with(dealt, {flaw_exponent, flaw_count})
             .with(dealt && (scalar_cracks || !tensor), {smoothing_length})
             .with(dealt && tensor_cracks && tensor, {smoothing_metric})
-            .with(scalar_cracks, {crack, local_strain})
+            .with(scalar_cracks, {crack_length, local_strain})
             .with(tensor_cracks, {damage_tensor, strain_history})
             .with(tensor_cracks && !coupled, {velocity_gradient})
-            .with(coupled, {coupled_gradient}),
+            .with(coupled, {uncut_gradient}),
         Fields{Field::damage, intact_share, pressure}
-            .with(scalar_cracks, {crack, local_strain})
+            .with(scalar_cracks, {crack_length, local_strain})
             .with(tensor_cracks, {damage_tensor, strain_history}),
         ejecta::damage<Dim>);
   add("pair rates",
@@ -119,19 +118,19 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
           .with(balsara, {viscosity_factor})
           .with(switched, {Field::shock_switch})
           .with(bonded, {start_position, bond}),
-      Fields{acceleration, heating, neighbour_sum, approach_speed}
+      Fields{acceleration, specific_energy_rate, zeroth_moment, largest_mu}
           .with(gradient, {velocity_gradient})
-          .with(coupled, {coupled_gradient})
+          .with(coupled, {uncut_gradient})
           .with(bonded, {stretch}),
       pair_rates<Dim>);
   if (driven) add("driven bodies", {acceleration, velocity, mass, position}, {acceleration}, driven_bodies<Dim>);
   if (continuity || solid)
     add("strain rates",
         Fields{velocity_gradient}
-            .with(continuity, {density, neighbour_sum, smoothing_length, mass, specific_energy, sound_speed})
+            .with(continuity, {density, zeroth_moment, smoothing_length, mass, specific_energy, sound_speed})
             .with(solid, {deviatoric_stress})
             .with(porous && solid, {distension, stress_factor})
-            .with(coupled, {coupled_gradient})
+            .with(coupled, {uncut_gradient})
             .with(variable_shear, {shear_modulus}),
         Fields{}.with(continuity, {compression_rate, density}).with(solid, {stress_rate}), strain_rates<Dim>);
   if (balsara || switched)
@@ -140,7 +139,7 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
         Fields{}.with(balsara, {viscosity_factor}).with(switched, {Field::shock_switch}), viscosity_switches<Dim>);
   if (continuity && scene.numerics.smoothing_growth > 1)
     add("smoothing lengths",
-        Fields{neighbour_sum, smoothing_length}.with(tensor, {smoothing_metric}).with(bonded, {bond}),
+        Fields{zeroth_moment, smoothing_length}.with(tensor, {smoothing_metric}).with(bonded, {bond}),
         Fields{smoothing_length}.with(tensor, {smoothing_metric}), smoothing_lengths<Dim>);
   if (scene.output.peaks)
     add("peaks", {position, pressure, specific_energy, density, pressure_peak, specific_energy_peak, density_low},

@@ -15,10 +15,10 @@ ALGORITHM = ["neighbours", "density", "equation of state", "strength", "bonds", 
 COMPONENTS = {"position": 3, "velocity": 3, "acceleration": 3, "velocity_gradient": 9, "deviatoric_stress": 5,
               "stress_rate": 5, "start_position": 3}
 # Rates are kept three times: the integrator needs those of the step before, and but for motion what it expected of them.
-COPIES = {"acceleration": 2, "heating": 3, "compression_rate": 3, "stress_rate": 3}
+COPIES = {"acceleration": 2, "specific_energy_rate": 3, "compression_rate": 3, "stress_rate": 3}
 
-GAS_COLUMNS = """position velocity acceleration mass density specific_energy heating pressure sound_speed
-smoothing_length neighbour_sum approach_speed""".split()
+GAS_COLUMNS = """position velocity acceleration mass density specific_energy specific_energy_rate pressure sound_speed
+smoothing_length zeroth_moment largest_mu""".split()
 
 
 def bytes_of(columns):
@@ -77,7 +77,7 @@ BONDS = ("start_position", "bond", "stretch")
 WITH_IMAGES = 1.6**3
 BONDED = 4 * RECORDED  # the place at the start, and how far the bond reaches
 STRAINED = 7 * RECORDED * WITH_IMAGES  # of a gas: its rate of strain and switch
-CRACKS = ("damage", "crack", "local_strain", "flaw_strain")
+CRACKS = ("damage", "crack_length", "local_strain", "flaw_strain")
 
 gas = Case("gas", FOLDER / "gas.toml", {"numerics.density": "summation"},
            adds_stages=("neighbours", "density", "equation of state", "pair rates"), adds_columns=tuple(GAS_COLUMNS))

@@ -4,6 +4,9 @@ import signal
 import subprocess
 import time
 import unittest
+
+import h5py
+
 from ejecta_run import IMPACT_2D, PROGRAM, RunTest, Table, ejecta, movie_frames, settings, summary
 
 # Long enough to be caught in the middle and to sort the particles several times.
@@ -53,6 +56,20 @@ class Restart(RunTest):
                 self.assertEqual(movie_frames(out / "movie_slice.mp4"), len(after))
                 self.assertEqual(sorted(Table(out / "images/data.csv")["FILE"]),
                                  sorted(file.name for file in (out / "images").glob("*.png")))
+
+    def test_a_checkpoint_with_the_former_names_of_fields(self):
+        values = VALUES | {"insitu.enabled": "false", "time.max_steps": 60}
+        whole = self.run_scene(IMPACT_2D, "whole", values, "--threads", 1)
+        out = self.run_scene(IMPACT_2D, "former", values | {"time.max_steps": 30}, "--threads", 1)
+        checkpoint, = (out / "checkpoints").glob("*.h5")
+        former = {"specific_energy_rate": "heating", "previous_specific_energy_rate": "previous_heating",
+                  "zeroth_moment": "neighbour_sum", "largest_mu": "approach_speed", "crack_length": "crack"}
+        with h5py.File(checkpoint, "r+") as file:
+            for now, then in former.items():
+                file["columns"].move(now, then)
+        result = ejecta("run", IMPACT_2D, "--out", out, "--threads", 1, "--restart", *settings(values))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(Table(out / "history.csv").rows[-1], Table(whole / "history.csv").rows[-1])
 
     def assert_same_end(self, out, whole):
         """Bit for bit, in the last row and in all rows but what the pieces were at the last frame."""

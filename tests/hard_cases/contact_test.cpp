@@ -37,11 +37,10 @@ size = ["20 mm", "16 mm"]
 )";
 }
 
-std::unique_ptr<Sph<2>> broken_blocks(double gap, double closing_speed,
-                                             const std::vector<std::string>& more = {}) {
+std::unique_ptr<Sph<2>> broken_blocks(double gap, double closing_speed, const std::vector<std::string>& more = {}) {
   auto sim = start<2>(two_blocks(gap), more);
   auto& p = sim->particles;
-  std::ranges::fill(p.column(Field::crack), 1.0);
+  std::ranges::fill(p.column(Field::crack_length), 1.0);
   std::ranges::fill(p.column(Field::damage), 1.0);
   for (std::size_t i = 0; i < p.size(); ++i)
     p.column(Field::velocity, 0)[i] = (p.column(Field::position, 0)[i] < 0 ? 0.5 : -0.5) * closing_speed;
@@ -174,8 +173,8 @@ max = ["0.5 m", "50 mm"]
 
 /// A contact at rest between gases a thousand times apart in density. A summed density cannot jump from one particle to
 /// the next, so the pressure is wrong for two particles on either side, and they are pushed until it is right: the
-/// particles beside the heavy gas swing at up to 0.42 of the light gas's speed of sound, by instant and step (0.1 to 0.41
-/// seen at six instants and five lengths of steps). It survives.
+/// particles beside the heavy gas swing at up to 0.42 of the light gas's speed of sound, by instant and step (0.1 to
+/// 0.41 seen at six instants and five lengths of steps). It survives.
 TEST(Contact, GasesAThousandTimesApartSettle) {
   const auto sim = start<2>(two_gases(1e3, "summation"));
   const Outcome outcome = follow(*sim);

@@ -76,9 +76,10 @@ size = ["10 mm", "10 mm", "10 mm"]
       const double now = p.column(Field::damage)[i], pressure = p.column(Field::pressure)[i];
       ASSERT_TRUE(now >= before[i] && now <= 1) << before[i] << " -> " << now;
       ASSERT_EQ(pressure, applied[i] < 0 ? (1 - now) * applied[i] : applied[i]);
-      ASSERT_TRUE(sim->particles.column(Field::intact_share)[i] >= 0 && sim->particles.column(Field::intact_share)[i] <= 1);
-      ASSERT_TRUE(p.column(Field::crack)[i] >= crack[i] && p.column(Field::crack)[i] <= 1);
-      crack[i] = p.column(Field::crack)[i];
+      ASSERT_TRUE(sim->particles.column(Field::intact_share)[i] >= 0 &&
+                  sim->particles.column(Field::intact_share)[i] <= 1);
+      ASSERT_TRUE(p.column(Field::crack_length)[i] >= crack[i] && p.column(Field::crack_length)[i] <= 1);
+      crack[i] = p.column(Field::crack_length)[i];
       before[i] = now;
     }
   }

@@ -13,9 +13,10 @@ constexpr int gas_pairs = 3 + 1;           // velocity, energy
 constexpr int rock_pairs = 3 + 1 + 1 + 5;  // and density, deviatoric stress
 
 Particles<3> columns(bool rock) {
-  std::vector<Field> fields{Field::specific_energy, Field::heating};
+  std::vector<Field> fields{Field::specific_energy, Field::specific_energy_rate};
   if (rock)
-    fields.insert(fields.end(), {Field::density, Field::compression_rate, Field::deviatoric_stress, Field::stress_rate});
+    fields.insert(fields.end(),
+                  {Field::density, Field::compression_rate, Field::deviatoric_stress, Field::stress_rate});
   Particles<3> p;
   p.allocate(400000, fields);
   return p;

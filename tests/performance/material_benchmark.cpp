@@ -47,8 +47,7 @@ double share_of(const Sph<3>& sim, Predicate&& predicate) {
 }
 
 /// Density and energy in, pressure and sound speed out.
-void dense(benchmark::State& state, Sph<3>& sim, std::array<double, 2> densities,
-           std::array<double, 2> energies) {
+void dense(benchmark::State& state, Sph<3>& sim, std::array<double, 2> densities, std::array<double, 2> energies) {
   fill(sim, Field::density, densities[0], densities[1]);
   fill(sim, Field::specific_energy, energies[0], energies[1]);
   measure_stage(state, sim, "equation of state").bytes(bytes_of_columns(sim, 4));
@@ -107,7 +106,7 @@ void damage(benchmark::State& state) {
   fill(sim, Field::deviatoric_stress, -3e6, 3e6);
   fill(sim, Field::pressure, -1e7, 1e7);
   fill(sim, Field::distension, 1, 3.3);
-  fill(sim, Field::crack, 0, 0.5);
+  fill(sim, Field::crack_length, 0, 0.5);
   fill(sim, Field::local_strain, 0, 0);
   fill(sim, Field::damage, 0, 0);
   auto measured = measure_stage(state, sim, "damage");

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "particles/boundary_images.hpp"
+#include "particles/ghosts.hpp"
 #include "particles/pair_lists.hpp"
 #include "particles/particles.hpp"
 #include "particles/spatial_order.hpp"
@@ -92,16 +92,15 @@ std::vector<Neighbour<Dim>> all_neighbours(const Particles<Dim>& p, const Bounda
     std::vector<Place> places{{p.vector(Field::position, j)}};
     for (int a = 0; a < Dim; ++a) {
       const auto k = static_cast<std::size_t>(a);
-      if (boundary.kind[k] == BoundaryKind::open) continue;
       const double low = boundary.min[k], high = boundary.max[k];
       for (std::size_t place = 0, before = places.size(); place < before; ++place) {
         Place below = places[place], above = places[place];
-        const bool periodic = boundary.kind[k] == BoundaryKind::periodic;
+        const bool periodic = boundary.periodic(k);
         below.x[a] = periodic ? below.x[a] - (high - low) : 2 * low - below.x[a];
         above.x[a] = periodic ? above.x[a] + (high - low) : 2 * high - above.x[a];
         if (!periodic) below.sign[a] = above.sign[a] = -1;
-        places.push_back(below);
-        places.push_back(above);
+        if (boundary.lower[k] != BoundaryKind::open) places.push_back(below);
+        if (boundary.upper[k] != BoundaryKind::open) places.push_back(above);
       }
     }
     for (const Place& place : places)
@@ -122,12 +121,10 @@ std::size_t missed_neighbours(const Particles<Dim>& p, const PairLists<Dim>& lis
         offered[k].push_back(p.vector(Field::position, k));
         continue;
       }
-      const Image& image = lists.images()[k - p.size()];
-      Vec<Dim> x = p.vector(Field::position, image.source);
-      for (int a = 0; a < Dim; ++a)
-        if (boundary.kind[static_cast<std::size_t>(a)] != BoundaryKind::open)
-          x[a] = image_position(boundary, image, a, x[a]);
-      offered[image.source].push_back(x);
+      const Ghost& ghost = lists.ghosts().ghosts[k - p.size()];
+      Vec<Dim> x = p.vector(Field::position, ghost.source);
+      for (int a = 0; a < Dim; ++a) x[a] = lists.ghosts().transform(ghost).position(a, x[a]);
+      offered[ghost.source].push_back(x);
     }
     for (std::size_t i = lists.clusters()[cluster].begin; i < lists.clusters()[cluster].end; ++i)
       for (const auto& neighbour : all_neighbours(p, boundary, support, i))

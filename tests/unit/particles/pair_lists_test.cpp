@@ -160,10 +160,10 @@ TEST(PairLists, ACommonVelocityMakesNoDifference) {
   EXPECT_EQ(total_candidates(lists), total_candidates(boosted_lists));
 }
 
-TEST(PairLists, ImagesStandBeyondPeriodicAndReflectingFaces) {
+TEST(PairLists, GhostsStandBeyondPeriodicAndReflectingFaces) {
   for (const BoundaryKind x : {BoundaryKind::periodic, BoundaryKind::reflecting})
     for (const BoundaryKind y : {BoundaryKind::open, BoundaryKind::periodic, BoundaryKind::reflecting}) {
-      const Boundary box{{x, y, x}, {0, 0, 0}, {1, 1, 1}};
+      const Boundary box{{x, y, x}, {x, y, x}, {0, 0, 0}, {1, 1, 1}};
       auto p2 = random_cloud<2>(250, 13, 0.03, 0.1);
       auto p3 = random_cloud<3>(300, 14, 0.05, 0.1);
       sort_in_space(p2, 8);
@@ -174,13 +174,14 @@ TEST(PairLists, ImagesStandBeyondPeriodicAndReflectingFaces) {
       lists3.build(p3, settings_of<3>(2, 16, 0, box));
       EXPECT_EQ(missed_neighbours(p2, lists2, box, 2), 0u);
       EXPECT_EQ(missed_neighbours(p3, lists3, box, 2), 0u);
-      EXPECT_GT(lists3.images().size(), 100u);
+      EXPECT_GT(lists3.ghosts().size(), 100u);
     }
 }
 
 TEST(PairLists, MissNoImageWhileEverythingMovesTowardsAWall) {
   for (const BoundaryKind kind : {BoundaryKind::reflecting, BoundaryKind::periodic}) {
-    const Boundary box{{kind, BoundaryKind::open, BoundaryKind::open}, {0, 0, 0}, {1, 1, 1}};
+    const std::array<BoundaryKind, 3> kinds{kind, BoundaryKind::open, BoundaryKind::open};
+    const Boundary box{kinds, kinds, {0, 0, 0}, {1, 1, 1}};
     auto p = random_cloud<2>(300, 15, 0.04, 0.06);
     random_velocities(p, 0.1, 16);
     for (double& v : p.column(Field::velocity)) v -= 1;

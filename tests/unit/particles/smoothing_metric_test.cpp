@@ -88,7 +88,9 @@ TEST(SmoothingMetric, TheLimitCutsTheAspectAndKeepsTheVolume) {
     const Axes before = axes_of<3>(g), after = axes_of<3>(limited);
     EXPECT_LE(after.longest / after.shortest, std::min(2.0, before.longest / before.shortest) * (1 + 1e-7));
     EXPECT_NEAR(limited.determinant() / g.determinant(), 1, 1e-9);
-    if (before.longest < 2 * before.shortest) EXPECT_EQ(limited, g);
+    if (before.longest < 2 * before.shortest) {
+      EXPECT_EQ(limited, g);
+    }
   }
 }
 
@@ -131,7 +133,8 @@ int steps_until_invalid(const Boundary& boundary) {
 }
 
 TEST(EllipsoidLists, MissNobodyThatEitherEllipsoidReachesWhileTheyAreValid) {
-  const Boundary walls{{BoundaryKind::reflecting, BoundaryKind::reflecting, BoundaryKind::open}, {0, 0, 0}, {1, 1, 1}};
+  const std::array<BoundaryKind, 3> kinds{BoundaryKind::reflecting, BoundaryKind::reflecting, BoundaryKind::open};
+  const Boundary walls{kinds, kinds, {0, 0, 0}, {1, 1, 1}};
   for (const Boundary& boundary : {Boundary{}, walls}) {
     EXPECT_GE(steps_until_invalid<2>(boundary), 4);
     EXPECT_GE(steps_until_invalid<3>(boundary), 4);

@@ -113,6 +113,29 @@ TEST(SceneToml, ReadsBackAsTheSameScene) {
   }
 }
 
+TEST(Boundary, FacesAreSaidTogetherOrOneByOne) {
+  const auto read = [](const std::string& boundary) {
+    return parse_scene(valid_scene + "[boundary]\n" + boundary, "s.toml");
+  };
+  using enum BoundaryKind;
+  const std::array<BoundaryKind, 3> walls{reflecting, open, open}, none{};
+  const Scene both = read("x = \"reflecting\"\nmin = [0, 0, 0]\nmax = [\"1 m\", 0, 0]\n");
+  EXPECT_EQ(both.boundary.lower, walls);
+  EXPECT_EQ(both.boundary.upper, walls);
+  const Scene floor = read("x_min = \"reflecting\"\nmin = [0, 0, 0]\n");
+  EXPECT_EQ(floor.boundary.lower, walls);
+  EXPECT_EQ(floor.boundary.upper, none);
+  const Scene except = read("x_max = \"open\"\nx = \"reflecting\"\nmin = [0, 0, 0]\n");  // in any order
+  EXPECT_EQ(except.boundary.upper, none);
+  for (const Scene& scene : {both, floor, except}) {
+    const std::string echo = scene_toml(scene);
+    EXPECT_EQ(scene_toml(parse_scene(echo, "resolved.toml")), echo);
+    const Boundary again = parse_scene(echo, "resolved.toml").boundary;
+    EXPECT_EQ(again.lower, scene.boundary.lower);
+    EXPECT_EQ(again.upper, scene.boundary.upper);
+  }
+}
+
 TEST(SceneToml, HoldsDefaultsInSi) {
   const std::string echo = scene_toml(parse_scene(valid_scene, "s.toml"));
   EXPECT_NE(echo.find("\nspacing = \"0.001 m\"  #"), std::string::npos);

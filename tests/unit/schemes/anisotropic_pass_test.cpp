@@ -15,7 +15,7 @@ Particles<Dim> tensor_matter(std::size_t n, unsigned seed, bool stress, bool cra
   const auto plain = random_matter<Dim>(n, seed, stress);
   std::vector<Field> fields = plain.fields();
   fields.push_back(Field::smoothing_metric);
-  if (cracks) fields.insert(fields.end(), {Field::damage_tensor, Field::coupled_gradient});
+  if (cracks) fields.insert(fields.end(), {Field::damage_tensor, Field::uncut_gradient});
   Particles<Dim> p;
   p.allocate(n, fields);
   for (const Field f : plain.fields())
@@ -55,13 +55,12 @@ void expect_formulas(std::size_t n, const PairPassSettings& settings) {
   for (std::size_t i = 0; i < n; ++i) {
     const Sums<Dim> sums = reference.rates(i);
     EXPECT_LT((p.vector(Field::acceleration, i) - sums.acceleration).norm(), tolerance * sums.acceleration_scale);
-    EXPECT_NEAR(p.column(Field::heating)[i], sums.heating, tolerance * sums.heating_scale);
-    EXPECT_NEAR(p.column(Field::neighbour_sum)[i] / sums.moment, 1, tolerance);
-    EXPECT_NEAR(p.column(Field::approach_speed)[i], sums.approach, 10 * tolerance * std::max(sums.approach, 1.0));
+    EXPECT_NEAR(p.column(Field::specific_energy_rate)[i], sums.heating, tolerance * sums.heating_scale);
+    EXPECT_NEAR(p.column(Field::zeroth_moment)[i] / sums.moment, 1, tolerance);
+    EXPECT_NEAR(p.column(Field::largest_mu)[i], sums.approach, 10 * tolerance * std::max(sums.approach, 1.0));
     EXPECT_LT((velocity_gradient_of(p, i) - sums.gradient).norm(), 10 * tolerance * sums.gradient_scale);
     if (!settings.cracked) continue;
-    EXPECT_LT((p.tensor(Field::coupled_gradient, i) - sums.coupled_gradient).norm(),
-              10 * tolerance * sums.gradient_scale);
+    EXPECT_LT((p.tensor(Field::uncut_gradient, i) - sums.uncut_gradient).norm(), 10 * tolerance * sums.gradient_scale);
   }
 }
 
@@ -124,7 +123,8 @@ TEST(AnisotropicPass, EveryThreadCountGivesTheSameBits) {
     results.push_back(std::move(p));
   });
   for (const auto& other : results)
-    for (const Field f : {Field::acceleration, Field::heating, Field::velocity_gradient, Field::coupled_gradient})
+    for (const Field f :
+         {Field::acceleration, Field::specific_energy_rate, Field::velocity_gradient, Field::uncut_gradient})
       for (int k = 0; k < components(info(f).shape, 2); ++k)
         EXPECT_EQ(std::memcmp(results[0].column(f, k).data(), other.column(f, k).data(), 2000 * sizeof(double)), 0);
 }

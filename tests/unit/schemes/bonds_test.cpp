@@ -24,7 +24,7 @@ Particles<Dim> deformed(const Mat<Dim>& F, const Mat<Dim>& A, bool asph) {
   auto p = random_matter<Dim>(400, 61, true, 1.5, more);
   even_surroundings(p);
   if (asph) random_ellipsoids(p, 2, 62);
-  const double longest = Eigen::JacobiSVD<Mat<Dim>>(F).singularValues()[0];
+  const double longest = svd_of<Dim>(F).singularValues()[0];
   for (std::size_t i = 0; i < p.size(); ++i) {
     const Vec<Dim> x = p.vector(Field::position, i);
     p.set_vector(Field::start_position, i, x);
@@ -52,7 +52,7 @@ TEST(Bonds, AUniformStretchGivesTheExactGradientAndKeepsTheNeighbours) {
       const double tolerance = precision == Precision::mixed ? 3e-5 : 1e-12;
       std::size_t whole = 0;
       for (std::size_t i = 0; i < drawn.size(); ++i) {
-        EXPECT_NEAR(drawn.column(Field::neighbour_sum)[i] / still.column(Field::neighbour_sum)[i], 1, tolerance);
+        EXPECT_NEAR(drawn.column(Field::zeroth_moment)[i] / still.column(Field::zeroth_moment)[i], 1, tolerance);
         EXPECT_NEAR(still.column(Field::stretch)[i], 1, 1e-6);
         const Vec<3> cells = drawn.vector(Field::start_position, i) / spacing;
         if ((cells.array() < -0.5).any() || (cells.array() > 3.5).any()) continue;
@@ -89,7 +89,7 @@ TEST(Bonds, RatesAreTheFormulasAlsoWhereSomeHaveNone) {
       for (std::size_t i = 0; i < p.size(); ++i) {
         const Sums<3> sums = reference.rates(i);
         EXPECT_LE((p.vector(Field::acceleration, i) - sums.acceleration).norm(), tolerance * sums.acceleration_scale);
-        EXPECT_LE(std::abs(p.column(Field::heating)[i] - sums.heating), tolerance * sums.heating_scale);
+        EXPECT_LE(std::abs(p.column(Field::specific_energy_rate)[i] - sums.heating), tolerance * sums.heating_scale);
         EXPECT_LE((velocity_gradient_of(p, i) - sums.gradient).norm(), 10 * tolerance * sums.gradient_scale);
         EXPECT_NEAR(p.column(Field::stretch)[i], sums.stretch, 1e-5 * sums.stretch);
       }
@@ -108,7 +108,7 @@ TEST(Bonds, ViscosityTakesEnergyFromMotionAlsoAfterATurn) {
       }
       run_rates(p, settings);
       for (std::size_t i = 0; i < p.size(); ++i)
-        EXPECT_GT(p.column(Field::heating)[i], 0) << "asph " << asph << ", turned by " << angle;
+        EXPECT_GT(p.column(Field::specific_energy_rate)[i], 0) << "asph " << asph << ", turned by " << angle;
     }
 }
 

@@ -29,8 +29,10 @@ template <int Dim>
 Particles<Dim> matter(const Kind& kind, double share, PairPassSettings& settings) {
   std::vector<Field> more;
   if (kind.asph) more.push_back(Field::smoothing_metric);
-  if (kind.cracked) more.insert(more.end(), {Field::damage_tensor, Field::coupled_gradient});
-  if (kind.bonded) more.insert(more.end(), {Field::start_position, Field::bond, Field::stretch});
+  if (kind.cracked)
+    for (const Field f : {Field::damage_tensor, Field::uncut_gradient}) more.push_back(f);
+  if (kind.bonded)
+    for (const Field f : {Field::start_position, Field::bond, Field::stretch}) more.push_back(f);
   auto p = random_matter<Dim>(1000, 26, kind.stress, 2, more);
   for (double& h : p.column(Field::smoothing_length)) h *= share;
   if (kind.asph) random_ellipsoids(p, 3, 27);

@@ -64,7 +64,7 @@ TEST(Flux, ARiemannSolverGivesItsFormulas) {
       heating_scale += force.norm() * (v.norm() + std::abs(u_star)) / m[i];
     }
     EXPECT_LT((p.vector(Field::acceleration, i) - acceleration).norm(), 3e-14 * acceleration_scale);
-    EXPECT_NEAR(p.column(Field::heating)[i], heating, 3e-13 * heating_scale);
+    EXPECT_NEAR(p.column(Field::specific_energy_rate)[i], heating, 3e-13 * heating_scale);
   }
 }
 

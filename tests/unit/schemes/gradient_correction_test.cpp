@@ -32,8 +32,7 @@ std::vector<Mat<Dim>> moments() {
       Vec<Dim> stretches = Vec<Dim>::Constant(t);
       stretches[0] = 1.1 * t;
       stretches[Dim - 1] = s;
-      const Eigen::JacobiSVD<Mat<Dim>> svd(Mat<Dim>::Identity() + 0.5 * random_matrix<Dim>(uniform),
-                                           Eigen::ComputeFullU | Eigen::ComputeFullV);
+      const auto svd = svd_of<Dim>(Mat<Dim>::Identity() + 0.5 * random_matrix<Dim>(uniform));
       all.push_back(svd.matrixU() * stretches.asDiagonal() * svd.matrixV().transpose());
     }
   return all;
@@ -62,7 +61,7 @@ TEST(GradientCorrection, RotationHasNoStrainStressNoTorqueAndWorkIsHeat) {
 TEST(GradientCorrection, IsExactWithEnoughNeighboursAndFadesWithFewer) {
   Uniform uniform(5);
   for (const Mat<3>& M : moments<3>()) {
-    const double least = Eigen::JacobiSVD<Mat<3>>(M).singularValues()[2];
+    const double least = svd_of<3>(M).singularValues()[2];
     const Mat<3> A = random_matrix<3>(uniform);
     const auto c = gradient_correction<3>(M);
     EXPECT_EQ(c.whole, least >= least_moment);
@@ -146,7 +145,7 @@ TEST(GradientCorrection, ARigidlyTurningCloudIsNotStrainedHoweverFewTheNeighbour
         const Mat<3> L = velocity_gradient_of(p, i);
         strain = std::max(strain, (L + L.transpose()).norm());
         turn += (L - L.transpose()).norm() / static_cast<double>(p.size());
-        alone += p.column(Field::neighbour_sum)[i] == 0;
+        alone += p.column(Field::zeroth_moment)[i] == 0;
       }
       EXPECT_LT(strain, (precision == Precision::mixed ? 1e-5 : 1e-12) * spin.norm()) << "supports of " << share;
       EXPECT_GT(turn, 0.02 * spin.norm());

@@ -38,10 +38,10 @@ Errors errors_against_reference(std::size_t n, const PairPassSettings& settings)
     const Sums<Dim> sums = reference.rates(i);
     keep_largest(worst.acceleration,
                  (p.vector(Field::acceleration, i) - sums.acceleration).norm() / sums.acceleration_scale);
-    keep_largest(worst.heating, std::abs(p.column(Field::heating)[i] - sums.heating) / sums.heating_scale);
-    keep_largest(worst.moment, std::abs(p.column(Field::neighbour_sum)[i] / sums.moment - 1));
+    keep_largest(worst.heating, std::abs(p.column(Field::specific_energy_rate)[i] - sums.heating) / sums.heating_scale);
+    keep_largest(worst.moment, std::abs(p.column(Field::zeroth_moment)[i] / sums.moment - 1));
     keep_largest(worst.approach,
-                 std::abs(p.column(Field::approach_speed)[i] - sums.approach) / std::max(sums.approach, 1.0));
+                 std::abs(p.column(Field::largest_mu)[i] - sums.approach) / std::max(sums.approach, 1.0));
     keep_largest(worst.gradient, (velocity_gradient_of(p, i) - sums.gradient).norm() / sums.gradient_scale);
   }
   return worst;
@@ -102,7 +102,8 @@ TEST(PairPass, AGasWithoutGradientsHasTheSameRates) {
       const double tolerance = precision == Precision::mixed ? 3e-6 : 3e-14;
       EXPECT_LE((p.vector(Field::acceleration, i) - q.vector(Field::acceleration, i)).norm(),
                 tolerance * sums.acceleration_scale);
-      EXPECT_NEAR(p.column(Field::heating)[i], q.column(Field::heating)[i], tolerance * sums.heating_scale);
+      EXPECT_NEAR(p.column(Field::specific_energy_rate)[i], q.column(Field::specific_energy_rate)[i],
+                  tolerance * sums.heating_scale);
       EXPECT_EQ(q.column(Field::velocity_gradient)[i], untouched[i]) << "nobody writes it";
     }
   }
@@ -120,7 +121,7 @@ void expect_density(std::size_t n, Kernel kernel, Precision precision) {
   for (std::size_t i = 0; i < n; ++i) {
     const Sums<Dim> sums = reference.rates(i);
     EXPECT_NEAR(p.column(Field::density)[i] / sums.density, 1, tolerance);
-    EXPECT_NEAR(p.column(Field::neighbour_sum)[i] / sums.moment, 1, 10 * tolerance);
+    EXPECT_NEAR(p.column(Field::zeroth_moment)[i] / sums.moment, 1, 10 * tolerance);
   }
 }
 
@@ -347,7 +348,8 @@ TEST(PairPass, AQuarterTurnTurnsTheRates) {
     const Sums<3> sums = reference.rates(i);
     EXPECT_LT((q.vector(Field::acceleration, i) - turn(p.vector(Field::acceleration, i))).norm(),
               1e-13 * sums.acceleration_scale);
-    EXPECT_NEAR(q.column(Field::heating)[i], p.column(Field::heating)[i], 1e-13 * sums.heating_scale);
+    EXPECT_NEAR(q.column(Field::specific_energy_rate)[i], p.column(Field::specific_energy_rate)[i],
+                1e-13 * sums.heating_scale);
     const Mat<3> L = rotation * velocity_gradient_of(p, i) * rotation.transpose();
     EXPECT_LT((velocity_gradient_of(q, i) - L).norm(), 1e-11 * (L.norm() + sums.gradient_scale));
   }
@@ -360,9 +362,9 @@ TEST(PairPass, AParticleAloneFeelsNothing) {
       const auto settings = settings_of(kernel, precision, true, true);
       const auto lists = run_rates(p, settings);
       EXPECT_EQ(p.vector(Field::acceleration, 0), Vec<3>(0, 0, 0));
-      EXPECT_EQ(p.column(Field::heating)[0], 0);
-      EXPECT_EQ(p.column(Field::neighbour_sum)[0], 0);
-      EXPECT_EQ(p.column(Field::approach_speed)[0], 0);
+      EXPECT_EQ(p.column(Field::specific_energy_rate)[0], 0);
+      EXPECT_EQ(p.column(Field::zeroth_moment)[0], 0);
+      EXPECT_EQ(p.column(Field::largest_mu)[0], 0);
       EXPECT_EQ(velocity_gradient_of(p, 0), Mat<3>::Zero());
       make_pair_pass<3>(settings)->density(p, lists);
       const double self =
@@ -380,7 +382,7 @@ TEST(PairPass, CoincidentParticlesStayFinite) {
       run_rates(p, settings_of(kernel, precision, true, true));
       for (std::size_t i = 0; i < 4; ++i) {
         EXPECT_EQ(p.vector(Field::acceleration, i), Vec<3>(0, 0, 0));
-        EXPECT_TRUE(std::isfinite(p.column(Field::heating)[i]));
+        EXPECT_TRUE(std::isfinite(p.column(Field::specific_energy_rate)[i]));
         EXPECT_TRUE(velocity_gradient_of(p, i).allFinite());
       }
     }

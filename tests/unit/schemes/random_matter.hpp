@@ -1,7 +1,9 @@
 #pragma once
 /// Random clouds with every field a pass reads, a run of the pass over them, and what must balance in the end.
 #include <Eigen/LU>
+#include <Eigen/SVD>
 #include <cmath>
+#include <stdexcept>
 #include <vector>
 
 #include "schemes/pair_pass.hpp"
@@ -10,6 +12,13 @@
 namespace ejecta {
 
 inline constexpr double spacing = 0.0013;  ///< of the test clouds [m]
+
+template <int Dim>
+Eigen::JacobiSVD<Mat<Dim>> svd_of(const Mat<Dim>& m) {
+  const Eigen::JacobiSVD<Mat<Dim>> svd(m, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  if (svd.info() != Eigen::Success) throw std::runtime_error("a matrix without singular values");
+  return svd;
+}
 
 inline PairPassSettings settings_of(Kernel kernel, Precision precision, bool stress, bool correction) {
   PairPassSettings s;
@@ -32,10 +41,10 @@ inline PairPassSettings settings_of(Kernel kernel, Precision precision, bool str
 template <int Dim>
 Particles<Dim> random_matter(std::size_t n, unsigned seed, bool stress, double h_spread = 1.5,
                              std::vector<Field> more = {}) {
-  std::vector<Field> fields{Field::smoothing_length, Field::density,          Field::pressure,
-                            Field::sound_speed,      Field::heating,          Field::neighbour_sum,
-                            Field::approach_speed,   Field::viscosity_factor, Field::velocity_gradient,
-                            Field::shock_switch};
+  std::vector<Field> fields{
+      Field::smoothing_length,     Field::density,       Field::pressure,   Field::sound_speed,
+      Field::specific_energy_rate, Field::zeroth_moment, Field::largest_mu, Field::viscosity_factor,
+      Field::velocity_gradient,    Field::shock_switch};
   if (stress) fields.insert(fields.end(), {Field::deviatoric_stress, Field::intact_share});
   fields.insert(fields.end(), more.begin(), more.end());
   Particles<Dim> p = random_cloud<Dim>(n, seed, spacing, h_spread * spacing, fields);
@@ -86,9 +95,10 @@ void split_in_two(Particles<Dim>& p, PairPassSettings& settings) {
 
 /// Lists and a pass for the particles as they are; returns the lists.
 template <int Dim>
-PairLists<Dim> run_rates(Particles<Dim>& p, const PairPassSettings& settings) {
+PairLists<Dim> run_rates(Particles<Dim>& p, const PairPassSettings& settings, const Boundary& boundary = {},
+                         const Guests<Dim>& guests = {}) {
   PairLists<Dim> lists;
-  lists.build(p, {kernel_support(settings.kernel), cluster_size(settings.precision), 0, settings.rules.boundary});
+  lists.build(p, {kernel_support(settings.kernel), cluster_size(settings.precision), 0, boundary}, guests);
   make_pair_pass<Dim>(settings)->rates(p, lists);
   return lists;
 }
@@ -109,7 +119,7 @@ Balance balance_of(const Particles<Dim>& p) {
   double energy = 0, force_scale = 0, torque_scale = 0, energy_scale = 0;
   for (std::size_t i = 0; i < p.size(); ++i) {
     const Vec<Dim> f = p.column(Field::mass)[i] * p.vector(Field::acceleration, i), x = p.vector(Field::position, i);
-    const double heat = p.column(Field::mass)[i] * p.column(Field::heating)[i],
+    const double heat = p.column(Field::mass)[i] * p.column(Field::specific_energy_rate)[i],
                  work = f.dot(p.vector(Field::velocity, i));
     force += f;
     torque += x * f.transpose() - f * x.transpose();

@@ -1,7 +1,6 @@
 #pragma once
 /// The pair sums of pair_pass.hpp as plain loops over all pairs, written from the formulas alone.
 #include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -17,7 +16,7 @@ template <int Dim>
 struct Sums {
   Vec<Dim> acceleration = Vec<Dim>::Zero();
   double heating = 0, moment = 0, approach = 0, density = 0, stretch = 1;
-  Mat<Dim> gradient = Mat<Dim>::Zero(), coupled_gradient = Mat<Dim>::Zero();
+  Mat<Dim> gradient = Mat<Dim>::Zero(), uncut_gradient = Mat<Dim>::Zero();
   double acceleration_scale = 0, heating_scale = 0, gradient_scale = 0;
 };
 
@@ -26,7 +25,10 @@ template <int Dim>
 Mat<Dim> stress_of(const Particles<Dim>& p, bool cracked, std::size_t i) {
   Mat<Dim> s = Mat<Dim>::Zero();
   if (p.has(Field::deviatoric_stress)) {
-    const auto d = [&](int k) { return (p.has(Field::intact_share) ? p.column(Field::intact_share)[i] : 1) * p.column(Field::deviatoric_stress, k)[i]; };
+    const auto d = [&](int k) {
+      return (p.has(Field::intact_share) ? p.column(Field::intact_share)[i] : 1) *
+             p.column(Field::deviatoric_stress, k)[i];
+    };
     if constexpr (Dim == 2)
       s << d(0), d(2), d(2), d(1);
     else
@@ -58,7 +60,7 @@ struct Inverse {
   /// squares: sum of |H^-1 V_j grad W|^2.
   static Inverse of(const Mat<Dim>& M, double squares) {
     const double least = std::max(least_moment, std::sqrt(squares) / most_stiffness);
-    const Eigen::JacobiSVD<Mat<Dim>> svd(M, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    const auto svd = svd_of<Dim>(M);
     const Vec<Dim> p = (svd.singularValues() / least).cwiseMin(1);
     const Vec<Dim> q = svd.singularValues().cwiseMax(least).cwiseInverse();
     const Mat<Dim>&U = svd.matrixU(), &V = svd.matrixV();
@@ -79,8 +81,7 @@ template <int Dim>
 class Reference {
  public:
   /// The first particles are those asked for; the others may be copies of them.
-  Reference(const Particles<Dim>& particles, const PairPassSettings& settings,
-            std::vector<Copy<Dim>> copies = {})
+  Reference(const Particles<Dim>& particles, const PairPassSettings& settings, std::vector<Copy<Dim>> copies = {})
       : p_(particles),
         settings_(settings),
         kernel_(functions_of(settings.kernel, Dim)),
@@ -171,7 +172,7 @@ class Reference {
       const double opening = own.normal.dot((both - sums.gradient) * own.normal);
       if (opening < 0 || !own.press.isZero(0)) sums.gradient += opening * own.normal * own.normal.transpose();
     }
-    sums.coupled_gradient = corrected(Inverse<Dim>::of(uncut_moment, own.squares), uncut);
+    sums.uncut_gradient = corrected(Inverse<Dim>::of(uncut_moment, own.squares), uncut);
     return sums;
   }
 

@@ -38,7 +38,7 @@ strain = ")" + strain + "\"\n",
         p(sim->particles) {}
   double& at(Field f, int component = 0) { return p.column(f, component)[0]; }
   void set_gradient(const Mat<Dim>& gradient) {
-    for (const Field f : {Field::velocity_gradient, Field::coupled_gradient})
+    for (const Field f : {Field::velocity_gradient, Field::uncut_gradient})
       for (int a = 0; a < Dim && p.has(f); ++a)
         for (int b = 0; b < Dim; ++b) at(f, a * Dim + b) = gradient(a, b);
   }
@@ -118,7 +118,7 @@ TEST(TensorDamageStage, AccumulatesStrainAndCracksAsIntegratedByHand) {
 template <int Dim>
 void expect_growth_of_benz_and_asphaug() {
   Element<Dim> element("benz_asphaug");
-  EXPECT_FALSE(element.p.has(Field::crack)) << "the scalar model's";
+  EXPECT_FALSE(element.p.has(Field::crack_length)) << "the scalar model's";
   element.at(Field::flaw_strain) = 1e-3;
   element.at(Field::flaw_exponent) = 3;
   element.at(Field::flaw_count) = 64;
@@ -185,7 +185,7 @@ TEST(TensorDamageStage, ScalarAndTensorDamageGoTogether) {
     ASSERT_LE(largest, 1 + 1e-12);
     if (sim->materials[static_cast<std::size_t>(p.label(Label::material)[i])].tensor_damage()) {
       tensor = std::max(tensor, largest);
-      EXPECT_EQ(p.column(Field::crack)[i], 0);
+      EXPECT_EQ(p.column(Field::crack_length)[i], 0);
       EXPECT_GE(p.column(Field::damage)[i], std::min(largest, 1.0) - 1e-12);
     } else {
       scalar = std::max(scalar, p.column(Field::damage)[i]);  // by cracks and by shear

@@ -56,11 +56,11 @@ TEST(Diagnostics, PeakPressuresHalveTheMassOfTheBody) {
 TEST(Diagnostics, FacesTakeMomentumAndTorque) {
   Boundary boundary;
   EXPECT_TRUE(kept_between(boundary).momentum && kept_between(boundary).angular_momentum);
-  boundary.kind[1] = BoundaryKind::periodic;
+  boundary.lower[1] = boundary.upper[1] = BoundaryKind::periodic;
   EXPECT_TRUE(kept_between(boundary).momentum);
   EXPECT_FALSE(kept_between(boundary).angular_momentum);
   for (const BoundaryKind mirror : {BoundaryKind::reflecting, BoundaryKind::symmetry}) {
-    boundary.kind[0] = mirror;
+    boundary.upper[0] = mirror;
     EXPECT_FALSE(kept_between(boundary).momentum || kept_between(boundary).angular_momentum);
   }
 }

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "schemes/kernels.hpp"
-#include "sph/seedlings.hpp"
+#include "sph/placement.hpp"
 #include "sph/shapes.hpp"
 #include "unit/base/thread_counts.hpp"
 

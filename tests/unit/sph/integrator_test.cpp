@@ -10,10 +10,11 @@ namespace ejecta {
 namespace {
 
 const std::vector<Field> fluid{Field::smoothing_length, Field::density, Field::compression_rate, Field::specific_energy,
-                               Field::heating};
+                               Field::specific_energy_rate};
 
-const std::vector<Field> solid{Field::smoothing_length, Field::density, Field::compression_rate, Field::specific_energy,
-                               Field::heating, Field::deviatoric_stress, Field::stress_rate};
+const std::vector<Field> solid{
+    Field::smoothing_length,     Field::density,           Field::compression_rate, Field::specific_energy,
+    Field::specific_energy_rate, Field::deviatoric_stress, Field::stress_rate};
 
 /// Starts with the present rates as the previous ones, as set-up does.
 template <int Dim, class Rates>
@@ -37,7 +38,7 @@ void oscillator(Particles<2>& p) {
   const double x = p.column(Field::position)[0], v = p.column(Field::velocity)[0];
   const double a = -x - 0.3 * v;
   p.column(Field::acceleration)[0] = a;
-  p.column(Field::heating)[0] = -a * v;
+  p.column(Field::specific_energy_rate)[0] = -a * v;
   p.column(Field::compression_rate)[0] = -v;
 }
 
@@ -117,7 +118,7 @@ TEST(Integrator, ConservesTotalEnergyWhateverTheStepsAndForces) {
   // Random pair forces that know nothing of the positions; each side is heated by a random share of the work.
   const auto random_forces = [&](Particles<3>& q) {
     for (int a = 0; a < 3; ++a) std::ranges::fill(q.column(Field::acceleration, a), 0.0);
-    std::ranges::fill(q.column(Field::heating), 0.0);
+    std::ranges::fill(q.column(Field::specific_energy_rate), 0.0);
     const auto m = q.column(Field::mass);
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = 0; j < i; ++j) {
@@ -126,8 +127,8 @@ TEST(Integrator, ConservesTotalEnergyWhateverTheStepsAndForces) {
         const double share = uniform(0, 1);
         q.set_vector(Field::acceleration, i, q.vector(Field::acceleration, i) + force / m[i]);
         q.set_vector(Field::acceleration, j, q.vector(Field::acceleration, j) - force / m[j]);
-        q.column(Field::heating)[i] += share * lost / m[i];
-        q.column(Field::heating)[j] += (1 - share) * lost / m[j];
+        q.column(Field::specific_energy_rate)[i] += share * lost / m[i];
+        q.column(Field::specific_energy_rate)[j] += (1 - share) * lost / m[j];
       }
   };
   const auto energy = [&] {

@@ -107,13 +107,13 @@ TEST(DamageStage, CracksGrowInTensionOnlyAndTakeTensionAway) {
   Probe probe("pumice");
   probe.at(Field::pressure) = 1e7;
   damage(*probe.sim);
-  EXPECT_EQ(probe.at(Field::crack), 0);
+  EXPECT_EQ(probe.at(Field::crack_length), 0);
   EXPECT_EQ(probe.at(Field::damage), 0);
   EXPECT_EQ(probe.sim->particles.column(Field::intact_share)[0], 1);
 
   probe.at(Field::pressure) = -1e9;
   damage(*probe.sim);
-  EXPECT_EQ(probe.at(Field::crack), 0) << "no time, no growth";
+  EXPECT_EQ(probe.at(Field::crack_length), 0) << "no time, no growth";
   const Elastic& elastic = *probe.material().elastic;
   EXPECT_DOUBLE_EQ(probe.at(Field::local_strain), probe.at(Field::distension) * 1e9 / elastic.young());
 
@@ -126,20 +126,20 @@ TEST(DamageStage, CracksGrowInTensionOnlyAndTakeTensionAway) {
   probe.sim->clock.dt = radius / speed;
   probe.at(Field::pressure) = -1e-8 * elastic.young() / probe.at(Field::distension);
   damage(*probe.sim);
-  EXPECT_NEAR(probe.at(Field::crack), 0.5, 1e-12);
+  EXPECT_NEAR(probe.at(Field::crack_length), 0.5, 1e-12);
   EXPECT_NEAR(probe.at(Field::damage), 0.125, 1e-12);
   EXPECT_NEAR(probe.sim->particles.column(Field::intact_share)[0], 0.875, 1e-12);
   probe.sim->clock.dt *= 0.5;
   probe.at(Field::pressure) = 1e9;
   damage(*probe.sim);
-  EXPECT_NEAR(probe.at(Field::crack), 0.75, 1e-12) << "and closes half-way through this one, half as long";
+  EXPECT_NEAR(probe.at(Field::crack_length), 0.75, 1e-12) << "and closes half-way through this one, half as long";
   EXPECT_EQ(probe.at(Field::pressure), 1e9) << "broken matter bears pressure";
 
   probe.at(Field::pressure) = -1e9;
   damage(*probe.sim);
   EXPECT_EQ(probe.at(Field::damage), 1);
   EXPECT_EQ(probe.at(Field::pressure), 0);
-  probe.at(Field::crack) = 0.1;
+  probe.at(Field::crack_length) = 0.1;
   probe.at(Field::pressure) = -1e9;
   damage(*probe.sim);
   EXPECT_EQ(probe.at(Field::damage), 1) << "what is broken stays broken";

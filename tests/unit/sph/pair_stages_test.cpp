@@ -182,7 +182,7 @@ TEST(HeldDensity, FollowsTheNeighboursWhereContinuityHasLostThem) {
 
 TEST(SmoothingLengths, StayWithinTheirBounds) {
   const auto sim = cube("aluminium");
-  auto h = sim->particles.column(Field::smoothing_length), sum = sim->particles.column(Field::neighbour_sum);
+  auto h = sim->particles.column(Field::smoothing_length), sum = sim->particles.column(Field::zeroth_moment);
   const double h0 = sim->scene.numerics.nodes_per_h * 1e-3;
   std::ranges::fill(sum, 0.0);  // nobody near: grow
   for (int k = 0; k < 20; ++k) smoothing_lengths(*sim);

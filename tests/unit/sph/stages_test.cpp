@@ -26,8 +26,8 @@ TEST(Stages, AGasHasNothingOfASolid) {
   const auto sim = start<2>(gas_tube);
   EXPECT_EQ(names(sim->stages), (std::vector<std::string>{"neighbours", "density", "equation of state", "pair rates"}));
   EXPECT_EQ(sim->particles.fields(),
-            (std::vector<Field>{position, velocity, acceleration, mass, density, specific_energy, heating, pressure,
-                                sound_speed, smoothing_length, neighbour_sum, approach_speed}));
+            (std::vector<Field>{position, velocity, acceleration, mass, density, specific_energy, specific_energy_rate,
+                                pressure, sound_speed, smoothing_length, zeroth_moment, largest_mu}));
 }
 
 TEST(Stages, PorousRockHasAllItsOwn) {
@@ -35,8 +35,9 @@ TEST(Stages, PorousRockHasAllItsOwn) {
   EXPECT_EQ(names(sim->stages),
             (std::vector<std::string>{"neighbours", "equation of state", "strength", "damage", "pair rates",
                                       "strain rates", "viscosity switches", "smoothing lengths"}));
-  for (const Field f : {deviatoric_stress, stress_rate, plastic_strain, distension, stress_factor, Field::damage, crack,
-                        local_strain, flaw_strain, velocity_gradient, compression_rate, Field::shock_switch})
+  for (const Field f :
+       {deviatoric_stress, stress_rate, plastic_strain, distension, stress_factor, Field::damage, crack_length,
+        local_strain, flaw_strain, velocity_gradient, compression_rate, Field::shock_switch})
     EXPECT_TRUE(sim->particles.has(f)) << info(f).name;
   for (const Field f : {bond, start_position, stretch, viscosity_factor})
     EXPECT_FALSE(sim->particles.has(f)) << info(f).name;
@@ -61,7 +62,7 @@ TEST(Stages, EachIsThereOnlyOnRequest) {
 TEST(Stages, AMaterialWithoutPoresOrDamageHasNoSuchColumns) {
   const auto sim =
       start<3>(porous_impact, {"materials.pumice.porosity.model=none", "materials.pumice.damage.model=none"});
-  for (const Field f : {distension, stress_factor, Field::damage, crack, local_strain, flaw_strain})
+  for (const Field f : {distension, stress_factor, Field::damage, crack_length, local_strain, flaw_strain})
     EXPECT_FALSE(sim->particles.has(f)) << info(f).name;
   EXPECT_TRUE(sim->particles.has(deviatoric_stress));
 }
@@ -74,8 +75,8 @@ TEST(Stages, EveryColumnIsNamedByAStage) {
 
 TEST(Stages, MemoryPerParticleStaysSmall) {
   // At sizes where surfaces count little. Of the rock's, 506 are columns, 297 the records of the pair pass, 117 those
-  // of contact between pieces, 176 the sums over the surroundings, and the rest mostly candidate lists, which are longer
-  // for clusters of four (AVX2) than of eight.
+  // of contact between pieces, 176 the sums over the surroundings, and the rest mostly candidate lists, which are
+  // longer for clusters of four (AVX2) than of eight.
   const auto rock = start<3>(porous_impact, {"resolution.spacing=2.2 mm"});
   const auto gas = start<2>(gas_tube, {"resolution.spacing=6.25 mm"});
   advance(*rock, 3);

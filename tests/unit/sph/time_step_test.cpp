@@ -1,10 +1,9 @@
-#include "sph/criteria.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "base/errors.hpp"
+#include "sph/criteria.hpp"
 #include "sph/stages.hpp"
 #include "unit/sph/small_scenes.hpp"
 
@@ -18,7 +17,7 @@ TEST(TimeStep, IsTheCourantConditionOfAGasAtRest) {
   const Numerics& n = sim->scene.numerics;
   const std::size_t i = 100;
   p.column(Field::sound_speed)[i] = 10;
-  p.column(Field::approach_speed)[i] = 3;
+  p.column(Field::largest_mu)[i] = 3;
   const Vote vote = sim->vote();
   const double h = p.column(Field::smoothing_length)[i];
   EXPECT_EQ(vote.culprit, i);
@@ -53,7 +52,7 @@ TEST(TimeStep, IsNotShortenedByGrowingCracks) {
   std::ranges::fill(sim->particles.column(Field::local_strain), 0.1);
   sim->clock.dt = 1e-9;
   damage(*sim);
-  EXPECT_GT(std::ranges::max(sim->particles.column(Field::crack)), 0.5) << "broken in one step";
+  EXPECT_GT(std::ranges::max(sim->particles.column(Field::crack_length)), 0.5) << "broken in one step";
   EXPECT_EQ(sim->vote().dt, before);
 }
 

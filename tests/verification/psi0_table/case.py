@@ -53,7 +53,7 @@ class Psi0(Case):
 
     def errors(self, run, resolution):
         state, nodes_per_h = run.final, resolution / 100
-        psi0 = state["neighbour_sum"] ** (1 / self.dimension)
+        psi0 = state["zeroth_moment"] ** (1 / self.dimension)
         exact = exact_psi0(self.kernel, self.dimension, nodes_per_h)
         return {("psi0", "relative"): np.abs(psi0 / exact - 1).max(),
                 ("h", "relative"): np.abs(state["smoothing_length"] / nodes_per_h - 1).max()}

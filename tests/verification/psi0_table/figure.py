@@ -19,7 +19,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 
 def measured(case, resolution, workspace):
     state = execute(case.scene_file, case.settings(resolution), workspace / f"{case.name}_{resolution}").final
-    return state["smoothing_length"][0], state["neighbour_sum"][0] ** (1 / case.dimension)
+    return state["smoothing_length"][0], state["zeroth_moment"][0] ** (1 / case.dimension)
 
 
 def main():

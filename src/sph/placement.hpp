@@ -10,7 +10,7 @@ namespace ejecta {
 
 /// One particle before columns exist.
 template <int Dim>
-struct Seedling {
+struct Placement {
   Vec<Dim> site, x;  ///< place on the lattice, and where jitter and displacement have moved it [m]
   double volume;     ///< [m^3; m^2 in plane strain]
   double spacing;    ///< edge of a cube of that volume [m]
@@ -21,8 +21,8 @@ struct Seedling {
 /// All bodies filled, those of one material together: the lattice cut by shape and boundary box, then moved by jitter
 /// and displacement. Throws InputError for a body without particles, or one that overlaps an earlier one.
 template <int Dim>
-std::vector<Seedling<Dim>> sow(const Scene& scene, const std::vector<Material>& materials,
-                               const std::vector<int>& body_material);
+std::vector<Placement<Dim>> place_bodies(const Scene& scene, const std::vector<Material>& materials,
+                                         const std::vector<int>& body_material);
 
 /// Identifies a particle by where it was made: positions quantised to 1/64 of the spacing, mixed.
 template <int Dim>

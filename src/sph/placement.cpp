@@ -1,4 +1,4 @@
-#include "sph/seedlings.hpp"
+#include "sph/placement.hpp"
 
 #include <fmt/format.h>
 
@@ -41,11 +41,11 @@ void refuse_value(const Body& body, const std::string& key, const std::string& e
 
 namespace {
 
-/// Whether a point lies between the faces of the boundary box; its open axes have none.
+/// Whether a point is beyond no face of the boundary.
 template <int Dim>
 bool within(const Boundary& boundary, const Vec<Dim>& x) {
   for (std::size_t a = 0; a < Dim; ++a)
-    if (boundary.kind[a] != BoundaryKind::open && (x[a] < boundary.min[a] || x[a] > boundary.max[a])) return false;
+    if (!boundary.within(a, x[a])) return false;
   return true;
 }
 
@@ -56,7 +56,7 @@ std::vector<Formula> compile(const std::vector<std::string>& texts) {
 
 /// Where the particles of a body stand: the lattice cut by the shape and the boundary box, then moved.
 template <int Dim>
-std::vector<Seedling<Dim>> fill_body(const Scene& scene, std::size_t b, const Material& material, int number) {
+std::vector<Placement<Dim>> fill_body(const Scene& scene, std::size_t b, const Material& material, int number) {
   const Body& body = scene.bodies[b];
   const double spacing = scene.spacing * body.spacing_factor;
   const PointCloud<Dim> cloud = fill<Dim>(body, spacing, scene.lattice, scene.seed);
@@ -64,11 +64,11 @@ std::vector<Seedling<Dim>> fill_body(const Scene& scene, std::size_t b, const Ma
   const std::vector<Formula> density =
       body.profile.density.empty() ? std::vector<Formula>{} : compile({body.profile.density});
   const double uniform = is_set(body.density) ? body.density : material.bulk_density();
-  std::vector<Seedling<Dim>> seedlings;
+  std::vector<Placement<Dim>> placements;
   for (const Vec<Dim>& site : cloud.points) {
     if (!within<Dim>(scene.boundary, site)) continue;
     const double width = std::pow(cloud.volume, 1.0 / Dim);
-    Seedling<Dim> s{site, site, cloud.volume, width, uniform, static_cast<int>(b), number};
+    Placement<Dim> s{site, site, cloud.volume, width, uniform, static_cast<int>(b), number};
     for (int a = 0; a < Dim; ++a) {
       if (body.jitter > 0)
         s.x[a] +=
@@ -85,45 +85,45 @@ std::vector<Seedling<Dim>> fill_body(const Scene& scene, std::size_t b, const Ma
       s.density = density.front()(point);
       if (!(s.density > 0 && std::isfinite(s.density))) refuse_value(body, "density", "a number > 0", s.density, point);
     }
-    seedlings.push_back(s);
+    placements.push_back(s);
   }
-  return seedlings;
+  return placements;
 }
 
 }  // namespace
 
 template <int Dim>
-std::vector<Seedling<Dim>> sow(const Scene& scene, const std::vector<Material>& materials,
-                               const std::vector<int>& body_material) {
+std::vector<Placement<Dim>> place_bodies(const Scene& scene, const std::vector<Material>& materials,
+                                         const std::vector<int>& body_material) {
   std::vector<std::string> problems;
-  std::vector<std::vector<Seedling<Dim>>> by_material(materials.size());
+  std::vector<std::vector<Placement<Dim>>> by_material(materials.size());
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const Body& body = scene.bodies[b];
     const auto report = [&](const std::string& text) {
       problems.push_back(fmt::format("{}: bodies.{}: {}", body.origin, body.name, text));
     };
-    const auto seedlings =
+    const auto placements =
         fill_body<Dim>(scene, b, materials[static_cast<std::size_t>(body_material[b])], body_material[b]);
-    if (seedlings.empty())
+    if (placements.empty())
       report(fmt::format("expected room for at least one particle, got none at a spacing of {:.4g} m",
                          scene.spacing * body.spacing_factor));
     std::size_t shared = 0;
-    for (const Seedling<Dim>& s : seedlings)
+    for (const Placement<Dim>& s : placements)
       for (std::size_t other = 0; other < b; ++other)
         if (inside<Dim>(scene.bodies[other], s.site)) ++shared;
     if (shared > 0)
       report(fmt::format("expected a body clear of all earlier ones, got an overlap of {} particles", shared));
     auto& group = by_material[static_cast<std::size_t>(body_material[b])];
-    group.insert(group.end(), seedlings.begin(), seedlings.end());
+    group.insert(group.end(), placements.begin(), placements.end());
   }
   if (!problems.empty()) throw InputError(problems);
-  std::vector<Seedling<Dim>> all;
+  std::vector<Placement<Dim>> all;
   for (auto& group : by_material) all.insert(all.end(), group.begin(), group.end());
   return all;
 }
 
-template std::vector<Seedling<2>> sow<2>(const Scene&, const std::vector<Material>&, const std::vector<int>&);
-template std::vector<Seedling<3>> sow<3>(const Scene&, const std::vector<Material>&, const std::vector<int>&);
+template std::vector<Placement<2>> place_bodies<2>(const Scene&, const std::vector<Material>&, const std::vector<int>&);
+template std::vector<Placement<3>> place_bodies<3>(const Scene&, const std::vector<Material>&, const std::vector<int>&);
 template std::uint64_t position_key<2>(const Vec<2>&, double);
 template std::uint64_t position_key<3>(const Vec<3>&, double);
 template FormulaPoint formula_point<2>(const Body&, const Vec<2>&, double);
