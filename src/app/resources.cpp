@@ -73,8 +73,8 @@ Estimate estimate(const Scene& scene, const std::vector<Material>& materials) {
   e.bytes_per_particle = bytes_of_lists + (scene.dimension == 2 ? bytes_of_columns<2>(scene, materials)
                                                                 : bytes_of_columns<3>(scene, materials));
   e.steps = scene.time_end / least_step;
-  if (scene.max_steps > 0) e.steps = std::min(e.steps, static_cast<double>(scene.max_steps));
-  const int threads = scene.threads > 0 ? scene.threads : available_cores();
+  if (scene.max_steps) e.steps = std::min(e.steps, static_cast<double>(*scene.max_steps));
+  const int threads = scene.threads.value_or(available_cores());
   e.seconds = e.particles * e.steps / (particle_steps_per_s * threads);
   return e;
 }
