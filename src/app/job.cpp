@@ -30,7 +30,7 @@ Job read_job(const std::string& scene_file, const std::vector<std::string>& over
   job.materials = read_materials(job.scene, material_library());
   job.resolved = resolved_toml(job.scene, job.materials);
   check_memory(job.scene, job.materials.list);
-  set_threads(job.scene.threads > 0 ? job.scene.threads : available_cores());
+  set_threads(job.scene.threads.value_or(available_cores()));
   const InSitu& insitu = job.scene.insitu;
   if (!insitu.enabled) return job;
   check_pipeline_scripts(pipeline_scripts(insitu.pipelines, job.scene.fragments.enabled));

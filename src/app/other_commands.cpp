@@ -46,7 +46,7 @@ int check_command(const std::string& scene_file, const std::vector<std::string>&
              e.particles * e.bytes_per_particle / 1e9);
   fmt::print("  steps              {:.0f}, while nothing moves faster than sound at rest\n", e.steps);
   fmt::print("  wall time          about {} on {} threads, without in-situ work\n", format_quantity(e.seconds, "s"),
-             scene.threads > 0 ? scene.threads : available_cores());
+             scene.threads.value_or(available_cores()));
   return 0;
 }
 

@@ -10,6 +10,7 @@
 
 #include "base/errors.hpp"
 #include "base/parallel.hpp"
+#include "material/material_reader.hpp"
 #include "schemes/kernels.hpp"
 #include "sph/shapes.hpp"
 #include "sph/stages.hpp"
@@ -44,9 +45,7 @@ double resting_sound_speed(const Material& material, const Body& body) {
   return std::visit(
       [&](const auto& eos) {
         const double rho = is_set(body.density) ? body.density : eos.reference_density();
-        double e = body.specific_energy;
-        if (is_set(body.pressure))
-          if constexpr (requires { eos.energy(rho, body.pressure); }) e = eos.energy(rho, body.pressure);
+        const double e = initial_energy(body, material, rho);
         const double c = sound_speed(eos.evaluate(rho, e), rho, eos.sound_speed_floor());
         const double shear = material.solid() ? 4 * material.elastic->shear_modulus / (3 * rho) : 0;
         return std::sqrt(c * c + shear);
@@ -73,8 +72,8 @@ Estimate estimate(const Scene& scene, const std::vector<Material>& materials) {
   e.bytes_per_particle = bytes_of_lists + (scene.dimension == 2 ? bytes_of_columns<2>(scene, materials)
                                                                 : bytes_of_columns<3>(scene, materials));
   e.steps = scene.time_end / least_step;
-  if (scene.max_steps > 0) e.steps = std::min(e.steps, static_cast<double>(scene.max_steps));
-  const int threads = scene.threads > 0 ? scene.threads : available_cores();
+  if (scene.max_steps) e.steps = std::min(e.steps, static_cast<double>(*scene.max_steps));
+  const int threads = scene.threads.value_or(available_cores());
   e.seconds = e.particles * e.steps / (particle_steps_per_s * threads);
   return e;
 }

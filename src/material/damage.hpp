@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "scene/choices.hpp"
+
 namespace ejecta {
 
 /// The strain that opens the flaws of tensor damage: by the present stress (Benz & Asphaug 1995), or accumulated
@@ -22,8 +24,8 @@ enum class CrackLaw { grady_kipp, benz_asphaug };
 
 /// Flaws that open below strain eps: k eps^m per volume.
 struct GradyKipp {
-  double weibull_m;
-  double weibull_k;  ///< 1/m^3 (1/m^2 in plane strain); values up to 1e61 occur, only its logarithm is used
+  double weibull_m = unset;
+  double weibull_k = unset;  ///< 1/m^3 (1/m^2 in plane strain); values up to 1e61 occur, only its logarithm is used
   double crack_speed_factor = 0.4;  ///< speed of a growing crack / longitudinal wave speed
   CrackLaw growth = CrackLaw::grady_kipp;
   bool tensor = false;                             ///< cracks have directions

@@ -12,6 +12,12 @@
 
 namespace ejecta {
 
+/// How the distension is looked for.
+struct DistensionSearch {
+  DistensionSolver method = DistensionSolver::safe_newton;
+  double tolerance = 1e-12;  ///< of alpha; above 1e-7 the pressure shows it (kPa and more)
+};
+
 struct DistensionResult {
   double alpha;
   EosPoint solid;   ///< at (alpha rho, e); the pressure of the body is solid.pressure/alpha
@@ -136,15 +142,14 @@ DistensionResult plain_newton(Problem<EosT>& problem, Trial t) {
 /// @param rho        density of the body [kg/m^3], > 0
 /// @param e          specific energy [J/kg]
 /// @param alpha_old  distension so far, the smallest in the body's history
-/// @param tolerance  of alpha; above 1e-7 the pressure shows it (kPa and more), 1e-12 is usual
 /// @return 1 <= alpha <= alpha_old; always in double, since (alpha - 1) of a nearly compacted body cancels
 template <class EosT>
 DistensionResult solve_distension(const CrushCurve& curve, const EosT& eos, double rho, double e, double alpha_old,
-                                  DistensionSolver method, double tolerance) {
-  distension::Problem<EosT> problem{curve, eos, rho, e, alpha_old, tolerance};
+                                  const DistensionSearch& search) {
+  distension::Problem<EosT> problem{curve, eos, rho, e, alpha_old, search.tolerance};
   const distension::Trial start = problem.evaluate(alpha_old);
   if (alpha_old <= 1 || problem.accepts(start)) return problem.result(start);
-  switch (method) {
+  switch (search.method) {
     case DistensionSolver::bisection:
       return distension::bisect(problem, 1.0, alpha_old);
     case DistensionSolver::newton:

@@ -2,13 +2,14 @@
 #include <cmath>
 
 #include "material/deviator.hpp"
+#include "scene/choices.hpp"
 
 namespace ejecta {
 
 /// Isotropic linear elasticity of the non-porous, undamaged material.
 struct Elastic {
-  double shear_modulus;  ///< G [Pa]
-  double bulk_modulus;   ///< K [Pa]
+  double shear_modulus = unset;  ///< G [Pa]
+  double bulk_modulus = unset;   ///< K [Pa]
 
   /// Young's modulus E = 9 K G / (3 K + G) [Pa].
   double young() const { return 9 * bulk_modulus * shear_modulus / (3 * bulk_modulus + shear_modulus); }

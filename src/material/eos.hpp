@@ -1,6 +1,14 @@
 #pragma once
 /// The equations of state a material can have. Visit once per material, then loop.
+///
+/// Each is a plain struct with
+///   evaluate(rho, e)                  EosPoint at density rho [kg/m^3] and specific energy e [J/kg]
+///   reference_density()               of the unstressed, non-porous material [kg/m^3]
+///   sound_speed_floor()               where the equation is mechanically unstable [m/s]
+///   gas                               whether it has no density of its own: without pressure it spreads without end
+/// and, where it can, what the properties below ask for. The rest of the program asks for these and for no type.
 #include <limits>
+#include <optional>
 #include <variant>
 
 #include "material/ideal_gas.hpp"
@@ -17,6 +25,41 @@ inline double reference_density(const Eos& eos) {
   return std::visit([](const auto& e) { return e.reference_density(); }, eos);
 }
 
+/// Whether it is a gas: no density of its own, no tension, no surface.
+inline bool is_gas(const Eos& eos) {
+  return std::visit([](const auto& e) { return e.gas; }, eos);
+}
+
+/// Specific energy [J/kg] at density rho [kg/m^3] and pressure [Pa], if the equation of state can be solved for it:
+/// its specific_energy(rho, P).
+inline std::optional<double> specific_energy_at(const Eos& eos, double rho, double pressure) {
+  return std::visit(
+      [&](const auto& e) -> std::optional<double> {
+        if constexpr (requires { e.specific_energy(rho, pressure); })
+          return e.specific_energy(rho, pressure);
+        else
+          return std::nullopt;
+      },
+      eos);
+}
+
+/// Whether an equation of state follows a reaction, such as that of an explosive: evaluate(rho, e, reacted) with the
+/// reacted fraction, 0 to 1. With a default of 0, as it is asked without the fraction where nothing has reacted yet.
+template <class EosT>
+inline constexpr bool reacts = requires(const EosT& eos, double x) {
+  eos.evaluate(x, x, x);
+};
+
+/// Whether an equation of state knows the temperature: temperature_rise(rho, e) and melting_rise(rho), both above that
+/// at rest [K]; warms() and melts() say whether the constants for them are given.
+template <class EosT>
+inline constexpr bool gives_temperature = requires(const EosT& eos, double x) {
+  eos.temperature_rise(x, x);
+};
+inline bool has_temperature(const Eos& eos) {
+  return std::visit([]<class EosT>(const EosT&) { return gives_temperature<EosT>; }, eos);
+}
+
 /// Temperature and melting temperature, both above that at rest [K].
 struct Warmth {
   double rise = 0;
@@ -27,7 +70,7 @@ struct Warmth {
 /// knows no temperature.
 template <class EosT>
 Warmth warmth(const EosT& eos, double rho, double e) {
-  if constexpr (requires { eos.temperature_rise(rho, e); })
+  if constexpr (gives_temperature<EosT>)
     return {eos.temperature_rise(rho, e), eos.melting_rise(rho)};
   else
     return {};

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "material/strength_state.hpp"
+#include "scene/choices.hpp"
 
 namespace ejecta {
 
@@ -14,12 +15,15 @@ namespace ejecta {
 struct JohnsonCook {
   static constexpr bool hardening_law = true;
 
-  double yield_stress;        ///< A [Pa]
-  double hardening;           ///< B [Pa]
-  double hardening_exponent;  ///< n
-  double rate_factor;         ///< C
-  double softening_exponent;  ///< m
-  double reference_rate = 1;  ///< rate_0 [1/s]
+  double yield_stress = unset;        ///< A [Pa]
+  double hardening = unset;           ///< B [Pa]
+  double hardening_exponent = unset;  ///< n
+  double rate_factor = unset;         ///< C
+  double softening_exponent = unset;  ///< m
+  double reference_rate = 1;          ///< rate_0 [1/s]
+
+  bool needs_temperature() const { return true; }
+  bool needs_melting() const { return true; }
 
   YieldPoint evaluate(const StrengthState& s) const {
     const double homologous = s.warmth.rise / s.warmth.melting;

@@ -1,14 +1,17 @@
 #pragma once
 #include "material/eos_point.hpp"
+#include "scene/choices.hpp"
 
 namespace ejecta {
 
 /// P = rho0 c0^2 mu + gamma0 rho0 e, mu = rho/rho0 - 1: Hooke's law of volume, for bodies that are little compressed
 /// (rubber balls: Monaghan 2000, J. Comput. Phys. 159, 290). Nothing limits its tension.
 struct LinearEos {
-  double rho0;        ///< reference density [kg/m^3]
-  double c0;          ///< sound speed [m/s]
-  double gamma0 = 0;  ///< Grueneisen parameter; 0: no heat in the pressure
+  static constexpr bool gas = false;
+
+  double rho0 = unset;  ///< reference density [kg/m^3]
+  double c0 = unset;    ///< sound speed [m/s]
+  double gamma0 = 0;    ///< Grueneisen parameter; 0: no heat in the pressure
 
   /// State at density rho > 0 [kg/m^3] and specific energy e [J/kg].
   EosPoint evaluate(double rho, double e) const {

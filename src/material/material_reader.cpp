@@ -59,20 +59,19 @@ void check_use(const Scene& scene, const std::vector<Material>& materials, std::
     const auto found =
         std::find_if(materials.begin(), materials.end(), [&](const auto& m) { return m.name == body.material; });
     if (found == materials.end()) continue;
-    const bool gas = std::holds_alternative<IdealGas>(found->eos);
     const auto report = [&](const std::string& message) {
       problems.push_back(fmt::format("{}: bodies.{}: {}", body.origin, body.name, message));
     };
-    if (scene.numerics.density == DensityMethod::summation && !gas)
+    if (scene.numerics.density == DensityMethod::summation && !found->gas())
       report(fmt::format(
           "numerics.density: expected continuity, got summation: {} is no gas, and a summed density falls off "
           "at free surfaces",
           body.material));
     if (!body.profile.deviatoric_stress.empty() && !found->solid())
       report(fmt::format("profile.deviatoric_stress: only a solid can bear it, and {} is none", body.material));
-    if ((is_set(body.pressure) || !body.profile.pressure.empty()) && !gas)
-      report(fmt::format("pressure: only a gas can be given one, and {} is none", body.material));
     const double bulk = found->bulk_density();
+    if ((is_set(body.pressure) || !body.profile.pressure.empty()) && !specific_energy_at(found->eos, bulk, 0))
+      report(fmt::format("pressure: only a gas can be given one, and {} is none", body.material));
     if (found->porosity && is_set(body.density) && std::abs(body.density - bulk) > 1e-6 * bulk)
       report(fmt::format(
           "density: expected {}, the bulk density of {}, got {}; to change it set "
@@ -125,6 +124,11 @@ Materials read_materials(const Scene& scene, const std::string& library) {
   check_use(scene, materials.list, problems);
   if (!problems.empty()) throw InputError(problems);
   return materials;
+}
+
+double initial_energy(const Body& body, const Material& material, double density) {
+  if (!is_set(body.pressure)) return body.specific_energy;
+  return specific_energy_at(material.eos, density, body.pressure).value();
 }
 
 std::string resolved_toml(const Scene& scene, const Materials& materials) { return scene_toml(scene) + materials.toml; }

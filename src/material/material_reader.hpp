@@ -29,6 +29,10 @@ Material read_material(const std::string& name, const std::vector<std::string>& 
 /// and numerics ask of them. Throws InputError with the problems of all materials.
 Materials read_materials(const Scene& scene, const std::string& library);
 
+/// Specific energy with which the matter of a body begins at this density [kg/m^3]: its own, or that of its pressure
+/// [J/kg].
+double initial_energy(const Body& body, const Material& material, double density);
+
 /// Everything a run was given, defaults included, in SI, as one scene file that needs no other and runs again.
 std::string resolved_toml(const Scene& scene, const Materials& materials);
 

@@ -18,16 +18,10 @@ struct Named {
   std::string_view name;
   Model initial;
 };
-/// Optional constants are not set rather than infinite, so that none is echoed that was not given.
-MieGrueneisen without_heat() {
-  MieGrueneisen eos{};
-  eos.heat_capacity = eos.melt_temperature = unset;
-  return eos;
-}
 
 const std::array<Named<Eos>, 4> eos_models{{{"ideal_gas", IdealGas{}},
                                             {"tillotson", Tillotson{}},
-                                            {"mie_grueneisen", without_heat()},
+                                            {"mie_grueneisen", MieGrueneisen{}},
                                             {"linear", LinearEos{}}}};
 const std::array<Named<Strength>, 6> strength_models{{{"von_mises", VonMises{}},
                                                       {"drucker_prager", DruckerPrager{}},
@@ -52,10 +46,12 @@ void start(Model& model, const std::string& name, const std::array<Named<Model>,
     if (candidate.name == name) model = candidate.initial;
 }
 
-/// Models that melt at the melting temperature of the equation of state.
-bool knows_temperature(const Strength& strength) {
-  return std::holds_alternative<SteinbergGuinan>(strength) || std::holds_alternative<JohnsonCook>(strength);
-}
+using Report = std::function<void(const std::string& path, const std::string& message)>;
+
+/// What the constants of a model ask of each other; of most nothing beyond their limits. Comparisons with what is not
+/// set are false: that it is missing has been reported.
+template <class Model>
+void check(const Model&, const Report&) {}
 
 /// A constant without a default.
 void constant(Describer& d, std::string key, double& value, std::string unit, Limits limits, std::string doc) {
@@ -79,6 +75,10 @@ void describe(Describer& d, Tillotson& t) {
   constant(d, "alpha", t.alpha, "1", positive, "Gaussian decay in expansion");
   constant(d, "beta", t.beta, "1", positive, "exponential decay in expansion");
 }
+void check(const Tillotson& t, const Report& report) {
+  if (t.E_cv <= t.E_iv)
+    report("eos.E_cv", fmt::format("expected more than E_iv ({})", format_quantity(t.E_iv, "J/kg")));
+}
 
 void describe(Describer& d, MieGrueneisen& m) {
   constant(d, "density", m.rho0, "kg/m^3", positive, "reference density, without pores");
@@ -97,6 +97,18 @@ void describe(Describer& d, MieGrueneisen& m) {
   d.number("melt_temperature", m.melt_temperature, "K", positive, "at reference density; else it never melts");
   d.number("melt_exponent", m.melt_exponent, "1", non_negative,
            "a of Lindemann's law; else the melting temperature does not depend on the density");
+}
+void check(const MieGrueneisen& m, const Report& report) {
+  for (int k = 1; k <= 200; ++k) {
+    const double mu = (m.eta_max - 1) * k / 200;
+    if (m.denominator(mu) <= 0 || m.evaluate((1 + mu) * m.rho0, 0).dP_drho <= 0)
+      return report("eos.eta_max", fmt::format("expected less than {:.4g}, where cold pressure no longer grows with "
+                                               "density for these S1, S2, S3, gamma0 and b",
+                                               1 + mu));
+  }
+  if (m.melt_temperature <= m.reference_temperature)
+    report("eos.melt_temperature",
+           fmt::format("expected more than reference_temperature ({})", format_quantity(m.reference_temperature, "K")));
 }
 
 void describe(Describer& d, LinearEos& l) {
@@ -119,13 +131,25 @@ void describe(Describer& d, Lundborg& m) {
   constant(d, "friction", m.friction, "1", non_negative, "coefficient of internal friction");
   constant(d, "limit", m.limit, "Pa", positive, "shear strength at infinite pressure");
 }
+void check(const Lundborg& m, const Report& report) {
+  if (m.limit <= m.cohesion)
+    report("strength.limit", fmt::format("expected more than the cohesion ({})", format_quantity(m.cohesion, "Pa")));
+}
 void describe(Describer& d, Collins& m) {
   describe(d, m.intact);
   constant(d, "damaged_cohesion", m.damaged_cohesion, "Pa", non_negative, "of broken rock");
   constant(d, "damaged_friction", m.damaged_friction, "1", non_negative, "coefficient of friction of broken rock");
   d.number("brittle_ductile", m.brittle_ductile, "Pa", non_negative,
-           "pressure of the brittle-ductile transition; 0: plastic strain does not break the rock");
-  d.number("brittle_plastic", m.brittle_plastic, "Pa", non_negative, "pressure of the brittle-plastic transition");
+           "pressure of the brittle-ductile transition; 0: plastic strain does not break the rock")
+      .zero_is_unset = true;
+  d.number("brittle_plastic", m.brittle_plastic, "Pa", non_negative, "pressure of the brittle-plastic transition")
+      .zero_is_unset = true;
+}
+void check(const Collins& m, const Report& report) {
+  check(m.intact, report);
+  if (is_set(m.brittle_ductile) && !(m.brittle_plastic > m.brittle_ductile))
+    report("strength.brittle_plastic",
+           fmt::format("expected more than brittle_ductile ({})", format_quantity(m.brittle_ductile, "Pa")));
 }
 
 void describe(Describer& d, SteinbergGuinan& m) {
@@ -138,6 +162,12 @@ void describe(Describer& d, SteinbergGuinan& m) {
   d.number("softening", m.softening, "1/K", non_negative, "its relative fall with temperature");
   d.number("melt_width", m.melt_width, "1", non_negative, "share of the melting temperature in which it softens");
 }
+void check(const SteinbergGuinan& m, const Report& report) {
+  if (m.yield_limit < m.yield_stress)
+    report("strength.yield_limit",
+           fmt::format("expected at least the yield stress ({})", format_quantity(m.yield_stress, "Pa")));
+}
+
 void describe(Describer& d, JohnsonCook& m) {
   constant(d, "yield_stress", m.yield_stress, "Pa", positive, "A: uniaxial, at the reference rate");
   constant(d, "hardening", m.hardening, "Pa", non_negative, "B of A + B strain^n");
@@ -172,44 +202,49 @@ void describe(Describer& d, PorositySettings& p, bool two_power) {
     d.integer("n1", p.n1, between(1, 100), "exponent below P_t").required = true;
     d.integer("n2", p.n2, between(1, 100), "exponent of the whole").required = true;
   }
-  d.number("sound_speed", p.sound_speed, "m/s", non_negative, "of the uncrushed body; 0: that of the solid");
+  d.number("sound_speed", p.sound_speed, "m/s", non_negative, "of the uncrushed body; 0: that of the solid")
+      .zero_is_unset = true;
   d.flag("stress_factor", p.stress_factor, "deviatoric stress follows the strain of the solid, not of the pores");
   d.flag("crush_damage", p.crush_damage, "crushing pores damages the material");
 }
 
-using Report = std::function<void(const std::string& path, const std::string& message)>;
-
-void check_mie_grueneisen(const MieGrueneisen& m, const Report& report) {
-  if (m.rho0 == 0 || m.c0 == 0) return;  // reported as missing
-  for (int k = 1; k <= 200; ++k) {
-    const double mu = (m.eta_max - 1) * k / 200;
-    if (m.denominator(mu) <= 0 || m.evaluate((1 + mu) * m.rho0, 0).dP_drho <= 0)
-      return report("eos.eta_max", fmt::format("expected less than {:.4g}, where cold pressure no longer grows with "
-                                               "density for these S1, S2, S3, gamma0 and b",
-                                               1 + mu));
-  }
-  if (m.melt_temperature <= m.reference_temperature)
-    report("eos.melt_temperature",
-           fmt::format("expected more than reference_temperature ({})", format_quantity(m.reference_temperature, "K")));
+void check(const PorositySettings& p, const Report& report) {
+  const std::string elastic = format_quantity(p.elastic_pressure, "Pa"),
+                    solid = format_quantity(p.solid_pressure, "Pa");
+  if (p.solid_pressure <= p.elastic_pressure)
+    report("porosity.solid_pressure", fmt::format("expected more than elastic_pressure ({})", elastic));
+  else if (p.transition_pressure <= p.elastic_pressure || p.transition_pressure > p.solid_pressure)
+    report("porosity.transition_pressure",
+           fmt::format("expected a pressure between elastic_pressure ({}) and solid_pressure ({})", elastic, solid));
+  if (p.transition_distension >= p.reference_distension)
+    report("porosity.transition_distension",
+           fmt::format("expected less than reference_distension ({})", format_quantity(p.reference_distension, "1")));
 }
 
-void check_metal(const MaterialSettings& s, const Report& report) {
-  const auto* eos = std::get_if<MieGrueneisen>(&s.eos);
-  if (!eos) return report("strength.model", "needs the temperature of eos.model = \"mie_grueneisen\"");
-  const auto needs_heat = [&](bool does) {
-    if (does && !is_set(eos->heat_capacity))
-      report("eos.heat_capacity", "missing: the strength depends on the temperature");
-  };
-  if (const auto* m = std::get_if<SteinbergGuinan>(&s.strength)) {
-    if (m->yield_limit != 0 && m->yield_limit < m->yield_stress)
-      report("strength.yield_limit",
-             fmt::format("expected at least the yield stress ({})", format_quantity(m->yield_stress, "Pa")));
-    needs_heat(m->softening > 0 || is_set(eos->melt_temperature));
-  } else {
-    needs_heat(true);
-    if (!is_set(eos->melt_temperature))
-      report("eos.melt_temperature", "missing: the strength depends on the temperature");
-  }
+/// Whether the strength falls by the temperature of the equation of state, not by a melt energy.
+bool softens_by_temperature(const Strength& strength) {
+  return std::visit([]<class Model>(const Model&) { return hardens<Model>; }, strength);
+}
+
+/// The temperature that a strength asks the equation of state for.
+void check_temperature(const MaterialSettings& s, const Report& report) {
+  std::visit(
+      [&]<class EosT, class Model>(const EosT& eos, const Model& strength) {
+        if constexpr (!hardens<Model>) {
+          return;
+        } else if constexpr (!gives_temperature<EosT>) {
+          std::vector<std::string> able;
+          for (const auto& [name, model] : eos_models)
+            if (has_temperature(model)) able.push_back(fmt::format("\"{}\"", name));
+          report("strength.model", fmt::format("needs the temperature of eos.model = {}", fmt::join(able, " or ")));
+        } else {
+          if (!eos.warms() && (strength.needs_temperature() || eos.melts()))
+            report("eos.heat_capacity", "missing: the strength depends on the temperature");
+          if (!eos.melts() && strength.needs_melting())
+            report("eos.melt_temperature", "missing: the strength depends on the temperature");
+        }
+      },
+      s.eos, s.strength);
 }
 
 }  // namespace
@@ -255,7 +290,7 @@ void describe(Describer& d, MaterialSettings& s) {
   model(s.strength_model, words(strength_models, true), "none: elastic without limit");
   if (s.strength_model != "none") {
     std::visit([&](auto& strength) { describe(d, strength); }, s.strength);
-    if (!knows_temperature(s.strength))
+    if (!softens_by_temperature(s.strength))
       d.number("melt_energy", s.melt_energy, "J/kg", positive, "at which no strength is left; else it never softens");
   }
   d.section("damage", fmt::format("brittle fracture: {}", s.damage_model));
@@ -270,54 +305,30 @@ void check_settings(const MaterialSettings& s, const Document& document, Problem
   const auto report = [&](const std::string& path, const std::string& message) {
     if (!problems.has(path)) problems.add(document.origin(path), path, message);
   };
-  const bool gas = std::holds_alternative<IdealGas>(s.eos);
-  if (const auto* t = std::get_if<Tillotson>(&s.eos); t && t->E_cv != 0 && t->E_cv <= t->E_iv)
-    report("eos.E_cv", fmt::format("expected more than E_iv ({})", format_quantity(t->E_iv, "J/kg")));
-  if (const auto* m = std::get_if<MieGrueneisen>(&s.eos)) check_mie_grueneisen(*m, report);
-  if (s.strength_model != "none" && knows_temperature(s.strength)) check_metal(s, report);
-  if (gas && s.has_elastic) report("elastic", "an ideal gas has no moduli");
-  if (gas && s.porosity_model != "none") report("porosity.model", "an ideal gas has no pores");
+  std::visit([&](const auto& eos) { check(eos, report); }, s.eos);
+  if (s.strength_model != "none") {
+    std::visit([&](const auto& strength) { check(strength, report); }, s.strength);
+    check_temperature(s, report);
+  }
+  const bool gas = !s.eos_model.empty() && is_gas(s.eos);
+  if (gas && s.has_elastic) report("elastic", "a gas has no moduli");
+  if (gas && s.porosity_model != "none") report("porosity.model", "a gas has no pores");
   if (!s.has_elastic && s.strength_model != "none") report("strength.model", "needs section [elastic]");
   if (!s.has_elastic && s.damage_model != "none") report("damage.model", "needs section [elastic]");
   if (s.damage_model == "grady_kipp_tensor" && s.strength_model == "none")
     report("damage.model",
            "grady_kipp_tensor needs section [strength]: cracks with a direction cut off a deviatoric "
            "stress, and nothing would bound the one that is left");
-  const auto check_limit = [&](const Lundborg& m) {
-    if (m.limit != 0 && m.limit <= m.cohesion)
-      report("strength.limit", fmt::format("expected more than the cohesion ({})", format_quantity(m.cohesion, "Pa")));
-  };
-  if (const auto* m = std::get_if<Lundborg>(&s.strength)) check_limit(*m);
-  if (const auto* m = std::get_if<Collins>(&s.strength)) {
-    check_limit(m->intact);
-    if (m->brittle_ductile > 0 && m->brittle_plastic <= m->brittle_ductile)
-      report("strength.brittle_plastic",
-             fmt::format("expected more than brittle_ductile ({})", format_quantity(m->brittle_ductile, "Pa")));
-  }
-  const PorositySettings& p = s.porosity;  // comparisons with values that are not set are false
-  const std::string elastic = format_quantity(p.elastic_pressure, "Pa"),
-                    solid = format_quantity(p.solid_pressure, "Pa");
-  if (p.solid_pressure <= p.elastic_pressure)
-    report("porosity.solid_pressure", fmt::format("expected more than elastic_pressure ({})", elastic));
-  else if (p.transition_pressure <= p.elastic_pressure || p.transition_pressure > p.solid_pressure)
-    report("porosity.transition_pressure",
-           fmt::format("expected a pressure between elastic_pressure ({}) and solid_pressure ({})", elastic, solid));
-  if (p.transition_distension >= p.reference_distension)
-    report("porosity.transition_distension",
-           fmt::format("expected less than reference_distension ({})", format_quantity(p.reference_distension, "1")));
+  check(s.porosity, report);
 }
 
 Material make_material(const std::string& name, const MaterialSettings& s) {
   Material material;
   material.name = name;
   material.eos = s.eos;
-  if (auto* eos = std::get_if<MieGrueneisen>(&material.eos)) {
-    if (!is_set(eos->heat_capacity)) eos->heat_capacity = std::numeric_limits<double>::infinity();
-    if (!is_set(eos->melt_temperature)) eos->melt_temperature = std::numeric_limits<double>::infinity();
-  }
   if (s.has_elastic) material.elastic = s.elastic;
   if (s.strength_model != "none") material.strength = s.strength;
-  if (is_set(s.melt_energy)) material.melt_energy = s.melt_energy;
+  material.melt_energy = s.melt_energy;
   if (s.damage_model != "none") {
     material.damage = s.damage;
     material.damage->tensor = s.damage_model == "grady_kipp_tensor";
@@ -328,7 +339,7 @@ Material make_material(const std::string& name, const MaterialSettings& s) {
       s.porosity_model == "quadratic"
           ? CrushCurve::quadratic(p.initial_distension, p.elastic_pressure, p.solid_pressure)
           : CrushCurve::two_power(p.initial_distension, p.reference_distension, p.transition_distension,
-                                  p.elastic_pressure, p.transition_pressure, p.solid_pressure, p.n1, p.n2);
+                                  p.elastic_pressure, p.transition_pressure, p.solid_pressure, *p.n1, *p.n2);
   material.porosity = Porosity{curve, p.sound_speed, p.stress_factor, p.crush_damage};
   return material;
 }

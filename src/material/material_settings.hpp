@@ -1,6 +1,7 @@
 #pragma once
 /// What a material file says, before a Material is made of it: each part has a model, and the model has its constants.
 #include <array>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -24,8 +25,8 @@ struct PorositySettings {
   double solid_pressure = unset;         ///< P_s [Pa]
   double reference_distension = unset;   ///< alpha_e
   double transition_distension = unset;  ///< alpha_t
-  int n1 = 1, n2 = 1;
-  double sound_speed = 0;  ///< m/s; 0: that of the solid
+  std::optional<int> n1, n2;
+  double sound_speed = unset;  ///< m/s; not set: that of the solid
   bool stress_factor = true;
   bool crush_damage = true;
 };

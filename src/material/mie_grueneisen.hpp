@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "material/eos_point.hpp"
+#include "scene/choices.hpp"
 
 namespace ejecta {
 
@@ -20,17 +21,19 @@ namespace ejecta {
 /// - below eta_min P falls to zero with the density, P = (eta/eta_min) P(eta_min, e), as that of an ideal gas does.
 ///   Cold matter is mechanically unstable there and has the least sound speed.
 struct MieGrueneisen {
-  double rho0;            ///< reference density [kg/m^3]
-  double c0;              ///< us of a weak shock [m/s]
-  double S1;              ///< slope of us(up)
+  static constexpr bool gas = false;
+
+  double rho0 = unset;    ///< reference density [kg/m^3]
+  double c0 = unset;      ///< us of a weak shock [m/s]
+  double S1 = unset;      ///< slope of us(up)
   double S2 = 0, S3 = 0;  ///< its curvature
-  double gamma0 = 0;      ///< Grueneisen parameter at rho0; that at eta is (gamma0 + b mu)/eta
+  double gamma0 = unset;  ///< Grueneisen parameter at rho0; that at eta is (gamma0 + b mu)/eta
   double b = 0;
   double eta_min = 0.5, eta_max = 1.5;
-  double heat_capacity = std::numeric_limits<double>::infinity();     ///< c_v [J/kg/K]
-  double reference_temperature = 300;                                 ///< T0, at rho0 and e = 0 [K]
-  double melt_temperature = std::numeric_limits<double>::infinity();  ///< Tm0, at rho0 [K]
-  double melt_exponent = std::numeric_limits<double>::quiet_NaN();    ///< a of Lindemann's law; none: Tm is constant
+  double heat_capacity = unset;        ///< c_v [J/kg/K]; not set: heat does not warm it
+  double reference_temperature = 300;  ///< T0, at rho0 and e = 0 [K]
+  double melt_temperature = unset;     ///< Tm0, at rho0 [K]; not set: never melts
+  double melt_exponent = unset;        ///< a of Lindemann's law; not set: Tm is constant
 
   /// State at density rho > 0 [kg/m^3] and specific energy e [J/kg], with analytic derivatives.
   EosPoint evaluate(double rho, double e) const {
@@ -56,6 +59,9 @@ struct MieGrueneisen {
     return 1 - (S1 - 1) * mu - S2 * mu * x - S3 * mu * x * x;
   }
 
+  bool warms() const { return is_set(heat_capacity); }
+  bool melts() const { return is_set(melt_temperature); }
+
   /// T - T0 [K] = T_s - T0 + (e - e_s)/c_v. T_s and e_s lie on the isentrope through (rho0, e = 0, T0), which follows
   /// from the equation itself. With x = 1 - 1/eta and Gamma/eta = gamma0 + b mu:
   ///   T_s = T0 I(x),  I = exp[(gamma0 - b) x] eta^b,   de_s/dx = P_c/rho0 + (gamma0 + b mu) e_s, hence
@@ -71,12 +77,14 @@ struct MieGrueneisen {
       integral += weights[k] * at(at_x / (1 - at_x), 0).pressure / isentropic_heating(at_x);
     }
     const double heating = isentropic_heating(x), isentrope_energy = heating * integral * x / rho0;
-    return reference_temperature * (heating - 1) + (e - isentrope_energy) / heat_capacity;
+    const double by_heat = warms() ? (e - isentrope_energy) / heat_capacity : 0;
+    return reference_temperature * (heating - 1) + by_heat;
   }
   /// Tm - T0 [K] by Lindemann's law in the form of Steinberg, Cochran & Guinan (1980, J. Appl. Phys. 51, 1498):
   /// Tm = Tm0 exp[2 a (1 - 1/eta)] eta^(2 (gamma0 - a - 1/3)).
   double melting_rise(double rho) const {
-    if (!(melt_exponent >= 0)) return melt_temperature - reference_temperature;
+    if (!melts()) return std::numeric_limits<double>::infinity();
+    if (!is_set(melt_exponent)) return melt_temperature - reference_temperature;
     const double eta = std::clamp(rho / rho0, eta_min, eta_max);
     const double power = 2 * (gamma0 - melt_exponent - 1.0 / 3);
     return melt_temperature * std::exp(2 * melt_exponent * (1 - 1 / eta)) * std::pow(eta, power) -

@@ -6,14 +6,15 @@
 
 #include "material/crush_curve.hpp"
 #include "material/eos_point.hpp"
+#include "scene/choices.hpp"
 
 namespace ejecta {
 
 struct Porosity {
   CrushCurve curve;
-  double sound_speed = 0;     ///< of the intact porous body [m/s]; 0: that of the solid
-  bool stress_factor = true;  ///< deviatoric stress rates follow the solid (stress_factor() below)
-  bool crush_damage = true;   ///< crushing pores damages the material (pore_damage() below)
+  double sound_speed = unset;  ///< of the intact porous body [m/s]; not set: that of the solid
+  bool stress_factor = true;   ///< deviatoric stress rates follow the solid (stress_factor() below)
+  bool crush_damage = true;    ///< crushing pores damages the material (pore_damage() below)
 
   double initial_distension() const { return curve.initial_distension; }
 };
@@ -64,7 +65,7 @@ inline double stress_factor(const CrushCurve& curve, const EosPoint& solid, doub
 /// above the solid's (Wuennemann, Collins & Melosh 2006, Icarus 180, 514).
 inline double porous_sound_speed(const Porosity& porosity, double solid_speed, double alpha) {
   const double pores = porosity.initial_distension() - 1;
-  if (porosity.sound_speed <= 0 || porosity.sound_speed >= solid_speed || pores <= 0) return solid_speed;
+  if (!(porosity.sound_speed < solid_speed) || pores <= 0) return solid_speed;
   return solid_speed + (porosity.sound_speed - solid_speed) * (alpha - 1) / pores;
 }
 

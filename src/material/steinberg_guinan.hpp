@@ -4,6 +4,7 @@
 
 #include "material/eos.hpp"
 #include "material/strength_state.hpp"
+#include "scene/choices.hpp"
 
 namespace ejecta {
 
@@ -14,14 +15,17 @@ namespace ejecta {
 struct SteinbergGuinan {
   static constexpr bool hardening_law = true;
 
-  double yield_stress;        ///< Y_0 [Pa]
-  double yield_limit;         ///< Y_max >= Y_0, at the G0 [Pa]
-  double hardening;           ///< beta
-  double hardening_exponent;  ///< n
-  double initial_strain = 0;  ///< eps_i, of earlier work on the metal
-  double stiffening = 0;      ///< A [1/Pa]
-  double softening = 0;       ///< B [1/K]
-  double melt_width = 1e-3;   ///< Y_p of the melt factor
+  double yield_stress = unset;        ///< Y_0 [Pa]
+  double yield_limit = unset;         ///< Y_max >= Y_0, at the G0 [Pa]
+  double hardening = unset;           ///< beta
+  double hardening_exponent = unset;  ///< n
+  double initial_strain = 0;          ///< eps_i, of earlier work on the metal
+  double stiffening = 0;              ///< A [1/Pa]
+  double softening = 0;               ///< B [1/K]
+  double melt_width = 1e-3;           ///< Y_p of the melt factor
+
+  bool needs_temperature() const { return softening > 0; }
+  bool needs_melting() const { return false; }
 
   /// G/G0 at the pressure [Pa] and compression eta = rho/rho0 of the solid: from 0.01, so that tension cannot turn a
   /// solid into a fluid; 0 when melted.

@@ -17,12 +17,13 @@
 #include "material/johnson_cook.hpp"
 #include "material/steinberg_guinan.hpp"
 #include "material/strength_state.hpp"
+#include "scene/choices.hpp"
 
 namespace ejecta {
 
 /// Constant yield stress (von Mises).
 struct VonMises {
-  double yield_stress;  ///< limit of sqrt(3 J2) [Pa]
+  double yield_stress = unset;  ///< limit of sqrt(3 J2) [Pa]
 
   double yield(const StrengthState&) const { return yield_stress; }
   double intact_fraction(double damage) const { return 1 - damage; }
@@ -32,8 +33,8 @@ struct VonMises {
 /// sqrt(J2) = [6 c cos(phi) + 6 P sin(phi)] / [sqrt(3) (3 - sin(phi))], >= 0. Damage removes the cohesion, not the
 /// friction.
 struct DruckerPrager {
-  double cohesion;        ///< c [Pa]
-  double friction_angle;  ///< phi [rad]
+  double cohesion = unset;        ///< c [Pa]
+  double friction_angle = unset;  ///< phi [rad]
 
   double yield(const StrengthState& s) const {
     const double sine = std::sin(friction_angle);
@@ -44,9 +45,9 @@ struct DruckerPrager {
 
 /// Lundborg (1968): sqrt(J2) = c + mu P / (1 + mu P/(Y_max - c)); the cohesion alone in tension. Intact rock only.
 struct Lundborg {
-  double cohesion;  ///< c [Pa]
-  double friction;  ///< coefficient of internal friction mu
-  double limit;     ///< Y_max, the shear strength at infinite pressure, > c [Pa]
+  double cohesion = unset;  ///< c [Pa]
+  double friction = unset;  ///< coefficient of internal friction mu
+  double limit = unset;     ///< Y_max, the shear strength at infinite pressure, > c [Pa]
 
   double yield(const StrengthState& s) const {
     const double load = friction * std::max(s.pressure, 0.0);
@@ -59,11 +60,11 @@ struct Lundborg {
 /// intact rock and dry friction Y_d = c_d + mu_d P for broken rock, 0 <= Y_d <= Y_i.
 struct Collins {
   Lundborg intact;
-  double damaged_cohesion;  ///< c_d [Pa]
-  double damaged_friction;  ///< mu_d; in tension the broken rock's strength falls as c_d + P
-  double brittle_ductile = 0, brittle_plastic = 0;  ///< pressures of the transitions [Pa]; 0: shear breaks nothing
+  double damaged_cohesion = unset;  ///< c_d [Pa]
+  double damaged_friction = unset;  ///< mu_d; in tension the broken rock's strength falls as c_d + P
+  double brittle_ductile = unset, brittle_plastic = unset;  ///< transitions [Pa]; not set: shear breaks nothing
 
-  bool breaks_in_shear() const { return brittle_ductile > 0; }
+  bool breaks_in_shear() const { return is_set(brittle_ductile); }
   /// Plastic strain that breaks it: 0.01 at zero pressure, 0.05 at the brittle-ductile and 0.1 at the brittle-plastic
   /// transition, straight lines in between; beyond that rock flows and hardly breaks, 1. [The same paper, recalled.]
   double failure_strain(double pressure) const {
@@ -83,15 +84,31 @@ struct Collins {
 
 using Strength = std::variant<VonMises, DruckerPrager, Lundborg, Collins, SteinbergGuinan, JohnsonCook>;
 
-/// Whether the yield stress of a model grows with the plastic flow itself; then flow() finds the two together.
+/// Whether the yield stress of a model grows with the plastic flow itself; then flow() finds the two together. Such
+/// laws are those of metals and soften by the temperature of the equation of state in place of melt_factor():
+/// needs_temperature() and needs_melting() say whether they cannot do without.
 template <class Model>
 inline constexpr bool hardens = requires {
   Model::hardening_law;
 };
 
+/// Whether the shear modulus depends on the state: shear_factor(P, eta, warmth) times that of `Elastic`.
+template <class Model>
+inline constexpr bool varies_shear = requires(const Model& model, double x) {
+  model.shear_factor(x, x, Warmth{});
+};
+
+/// Whether plastic strain may break a material, at failure_strain(P); breaks_in_shear() says whether this one.
+template <class Model>
+inline constexpr bool may_break_in_shear = requires(const Model& model, double x) {
+  model.failure_strain(x);
+};
+
 /// Fraction of the cold strength left at specific energy e: max(0, 1 - e/e_melt) (Benz & Asphaug 1999, Icarus 142, 5).
-/// An infinite melt energy means the material never softens.
-inline double melt_factor(double e, double melt_energy) { return std::clamp(1 - e / melt_energy, 0.0, 1.0); }
+/// Where no melt energy is set the material never softens.
+inline double melt_factor(double e, double melt_energy) {
+  return is_set(melt_energy) ? std::clamp(1 - e / melt_energy, 0.0, 1.0) : 1;
+}
 
 struct RadialReturn {
   double scale;           ///< what the deviator is multiplied by, 0 to 1

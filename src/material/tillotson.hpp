@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "material/eos_point.hpp"
+#include "scene/choices.hpp"
 
 namespace ejecta {
 
@@ -19,12 +20,14 @@ namespace ejecta {
 ///   beyond mu = -A/B, the more the thinner it is; the cold pressure is zero there instead.
 /// - e < 0, a small numerical undershoot, leaves w at 1 (w would pass through zero in strong expansion).
 struct Tillotson {
-  double rho0;         ///< reference density [kg/m^3]
-  double a, b;         ///< thermal coefficients
-  double A, B;         ///< bulk modulus and its quadratic companion [Pa]
-  double E0;           ///< [J/kg]
-  double E_iv, E_cv;   ///< incipient and complete vaporisation [J/kg]
-  double alpha, beta;  ///< decay of the expanded state
+  static constexpr bool gas = false;
+
+  double rho0 = unset;                 ///< reference density [kg/m^3]
+  double a = unset, b = unset;         ///< thermal coefficients
+  double A = unset, B = unset;         ///< bulk modulus and its quadratic companion [Pa]
+  double E0 = unset;                   ///< [J/kg]
+  double E_iv = unset, E_cv = unset;   ///< incipient and complete vaporisation [J/kg]
+  double alpha = unset, beta = unset;  ///< decay of the expanded state
 
   /// State at density rho > 0 [kg/m^3] and specific energy e [J/kg], with analytic derivatives.
   EosPoint evaluate(double rho, double e) const {

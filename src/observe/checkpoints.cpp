@@ -104,7 +104,7 @@ bool Checkpoints::pass_snapshots(double time) {
 
 void Checkpoints::observe(Simulation& sim, bool last) {
   const double interval = sim.scene.output.checkpoint_interval;
-  const bool due = interval > 0 && std::chrono::duration<double>(clock::now() - written_).count() > wait_;
+  const bool due = is_set(interval) && std::chrono::duration<double>(clock::now() - written_).count() > wait_;
   if (due || last) {
     sim.timers.time("checkpoints",
                     [&] { write_rotating_checkpoint(folder_ / "checkpoints", checkpoint_view(sim, resolved_)); });

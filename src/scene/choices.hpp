@@ -7,6 +7,11 @@
 
 namespace ejecta {
 
+/// What nobody has given and has no default: a number is `unset`, which is_set() tells; a whole number is an empty
+/// std::optional; a word, a list of words and a formula are empty. So it is in the settings of scenes and materials and
+/// in what is made of them. Comparisons with `unset` are false. 0 and infinity are values, but for the few keys of a
+/// file in which a 0 has always stood for "none": their description says so (Setting::zero_is_unset), and nothing
+/// behind it sees that 0.
 inline constexpr double unset = std::numeric_limits<double>::signaling_NaN();
 inline bool is_set(double value) { return !std::isnan(value); }
 using Triple = std::array<double, 3>;  ///< x, y, z; z is ignored in plane strain

@@ -50,11 +50,11 @@ void describe(Describer& d, Numerics& n) {
   d.integer("shape_interval", n.shape_interval, at_least(1),
             "asph: steps between votes on the shape of H, which moves with the flow between them");
   d.choice("gradient_correction", n.gradient_correction,
-           "gradients exact for linear fields, forces their adjoint; auto: unless all is ideal gas");
+           "gradients exact for linear fields, forces their adjoint; auto: unless all is gas");
   d.choice("balsara", n.balsara,
-           "shear switch on the viscosity, which leaves turning matter undamped; auto: unless all is ideal gas");
+           "shear switch on the viscosity, which leaves turning matter undamped; auto: unless all is gas");
   d.choice("shock_switch", n.shock_switch,
-           "no viscosity in smooth flow, where no shock has come by; auto: unless all is ideal gas");
+           "no viscosity in smooth flow, where no shock has come by; auto: unless all is gas");
   d.choice("bonds", n.bonds,
            "elastic matter keeps the neighbours of the start; auto: where it bears strains above a twentieth");
   d.number("viscosity_alpha", n.viscosity_alpha, "1", non_negative, "linear coefficient of Monaghan's viscosity");
@@ -126,7 +126,8 @@ void describe(Describer& d, OutputSettings& o) {
   d.number("history_interval", o.history_interval, "s", positive,
            "simulated time between rows of history.csv; else end/200");
   d.number("checkpoint_interval", o.checkpoint_interval, "s", non_negative,
-           "wall time between checkpoints, which begin at a tenth of it; 0: only at the end");
+           "wall time between checkpoints, which begin at a tenth of it; 0: only at the end")
+      .zero_is_unset = true;
   d.integer("snapshots", o.snapshots, non_negative, "full dumps, equally spaced in simulated time");
   d.flag("peaks", o.peaks, "particles remember peak pressure, peak energy, lowest density and where they come from");
 }
@@ -142,7 +143,7 @@ void describe(Describer& d, Scene& s, const std::vector<SceneSection>& sections)
            "arrangement of the particles at the start; glass: evenly spread without rows, drawn by random.seed");
   d.section("time", "how long");
   d.number("end", s.time_end, "s", positive, "simulated time at which the run ends").required = true;
-  d.integer("max_steps", s.max_steps, non_negative, "ends the run earlier; 0: no limit");
+  d.integer("max_steps", s.max_steps, non_negative, "ends the run earlier; 0: no limit").zero_is_unset = true;
   for (std::size_t k = 0; k < s.bodies.size(); ++k) {
     d.section(fmt::format("bodies[{}]", k), "one body, filled with particles at set-up");
     describe(d, s.bodies[k]);
@@ -171,7 +172,7 @@ void describe(Describer& d, Scene& s, const std::vector<SceneSection>& sections)
   d.section("output", "files");
   describe(d, s.output);
   d.section("run", "the machine");
-  d.integer("threads", s.threads, between(0, 4096), "0: all cores; never changes the result");
+  d.integer("threads", s.threads, between(0, 4096), "0: all cores; never changes the result").zero_is_unset = true;
   d.section("random", "chance");
   d.integer("seed", s.seed, "of the flaws in brittle bodies, of jitter and glass");
 }

@@ -38,12 +38,6 @@ Setting& Describer::range(std::string key, ColourRange& value, std::string doc) 
 Setting& Describer::flag(std::string key, bool& value, std::string doc) {
   return add(std::move(key), &value, "", any_number, std::move(doc));
 }
-Setting& Describer::integer(std::string key, int& value, Limits limits, std::string doc) {
-  return add(std::move(key), &value, "1", limits, std::move(doc));
-}
-Setting& Describer::integer(std::string key, std::int64_t& value, Limits limits, std::string doc) {
-  return add(std::move(key), &value, "1", limits, std::move(doc));
-}
 Setting& Describer::integer(std::string key, std::uint64_t& value, std::string doc) {
   return add(std::move(key), &value, "1", non_negative, std::move(doc));
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -37,8 +38,9 @@ struct Choice {
 };
 
 /// Where a setting lives.
-using Target = std::variant<double*, Triple*, ColourRange*, bool*, int*, std::int64_t*, std::uint64_t*, std::string*,
-                            std::vector<std::string>*, Choice>;
+using Target =
+    std::variant<double*, Triple*, ColourRange*, bool*, int*, std::int64_t*, std::uint64_t*, std::optional<int>*,
+                 std::optional<std::int64_t>*, std::string*, std::vector<std::string>*, Choice>;
 
 struct Setting {
   std::string section;  ///< "numerics", "bodies[1]"; empty at the top of a file
@@ -48,6 +50,7 @@ struct Setting {
   Limits limits;
   std::string doc;
   bool required = false;
+  bool zero_is_unset = false;  ///< a 0 in the file means: not set
   std::string path() const { return section.empty() ? key : section + "." + key; }
 };
 
@@ -61,8 +64,11 @@ class Describer {
   Setting& triple(std::string key, Triple& value, std::string unit, std::string doc);
   Setting& range(std::string key, ColourRange& value, std::string doc);
   Setting& flag(std::string key, bool& value, std::string doc);
-  Setting& integer(std::string key, int& value, Limits limits, std::string doc);
-  Setting& integer(std::string key, std::int64_t& value, Limits limits, std::string doc);
+  /// A whole number: int, std::int64_t or a std::optional of either.
+  template <class Integer>
+  Setting& integer(std::string key, Integer& value, Limits limits, std::string doc) {
+    return add(std::move(key), &value, "1", limits, std::move(doc));
+  }
   Setting& integer(std::string key, std::uint64_t& value, std::string doc);
   Setting& text(std::string key, std::string& value, std::string doc);
   Setting& texts(std::string key, std::vector<std::string>& values, std::string doc);

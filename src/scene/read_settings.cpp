@@ -73,7 +73,7 @@ struct Assign {
     const double value = number_of(literal, setting.unit);
     if (!inside(value, setting.limits))
       refuse(with_limits(expected_quantity(setting.unit), setting.limits, setting.unit), literal);
-    *target = value;
+    *target = value == 0 && setting.zero_is_unset ? unset : value;
   }
   void operator()(Triple* target) const {
     const std::string expected = "two or three components, each " + expected_quantity(setting.unit);
@@ -105,6 +105,12 @@ struct Assign {
     if (!integer || !inside(static_cast<double>(*integer), setting.limits) || !std::in_range<Integer>(*integer))
       refuse(with_limits("a whole number", setting.limits, "1"), literal);
     *target = static_cast<Integer>(*integer);
+  }
+  template <class Integer>
+  void operator()(std::optional<Integer>* target) const {
+    Integer value{};
+    (*this)(&value);
+    *target = value == 0 && setting.zero_is_unset ? std::nullopt : std::optional(value);
   }
   void operator()(std::string* target) const {
     const auto* text = std::get_if<std::string>(&literal.value);

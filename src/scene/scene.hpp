@@ -3,6 +3,7 @@
 /// range and the meaning of each, and the same text reads, checks, echoes and documents them.
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -111,7 +112,7 @@ struct FragmentSettings {
 
 struct OutputSettings {
   double history_interval = unset;   ///< s of simulated time; default: end/200
-  double checkpoint_interval = 600;  ///< s of wall time; 0: only at the end
+  double checkpoint_interval = 600;  ///< s of wall time; not set: only at the end
   int snapshots = 0;                 ///< full HDF5 dumps, equally spaced in time; 0: none
   bool peaks = false;                ///< particles remember their extremes and where they come from
 };
@@ -122,8 +123,8 @@ struct Scene {
   int dimension = 3;
   double spacing = unset;  ///< m
   Lattice lattice = Lattice::cubic;
-  double time_end = unset;     ///< s
-  std::int64_t max_steps = 0;  ///< 0: no limit
+  double time_end = unset;                ///< s
+  std::optional<std::int64_t> max_steps;  ///< not set: no limit
   std::vector<Body> bodies;
   Numerics numerics;
   Boundary boundary;
@@ -133,7 +134,7 @@ struct Scene {
   OutputSettings output;
   std::map<std::string, Document> materials;  ///< material name -> values that replace those of its file
   std::map<std::string, std::shared_ptr<SectionSettings>> sections;  ///< of packages, by name: those in the file
-  int threads = 0;                                                   ///< 0: all cores
+  std::optional<int> threads;                                        ///< not set: all cores
   std::uint64_t seed = 1;
 };
 

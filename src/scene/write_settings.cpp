@@ -31,13 +31,14 @@ struct ToToml {
   const Setting& setting;
 
   std::string operator()(const double* value) const {
-    return std::isnan(*value) ? "" : number_text(*value, setting.unit);
+    if (is_set(*value)) return number_text(*value, setting.unit);
+    return setting.zero_is_unset ? number_text(0, setting.unit) : "";
   }
   std::string operator()(const Triple* value) const {
-    if (std::isnan((*value)[0])) return "";
+    if (!is_set((*value)[0])) return "";
     std::string text;
     for (const double component : *value)
-      if (!std::isnan(component)) text += (text.empty() ? "" : ", ") + number_text(component, setting.unit);
+      if (is_set(component)) text += (text.empty() ? "" : ", ") + number_text(component, setting.unit);
     return "[" + text + "]";
   }
   std::string operator()(const ColourRange* range) const { return fmt::format("[{}, {}]", range->min, range->max); }
@@ -45,6 +46,11 @@ struct ToToml {
   template <class Integer>
   requires std::integral<Integer> std::string operator()(const Integer* value) const {
     return fmt::format("{}", *value);
+  }
+  template <class Integer>
+  std::string operator()(const std::optional<Integer>* value) const {
+    if (*value) return fmt::format("{}", **value);
+    return setting.zero_is_unset ? "0" : "";
   }
   std::string operator()(const std::string* text) const { return text->empty() ? "" : quoted(*text); }
   std::string operator()(const std::vector<std::string>* texts) const {
@@ -86,6 +92,10 @@ struct Kind {
   std::string operator()(const Choice& choice) const { return fmt::format("{}", fmt::join(choice.words, " | ")); }
   template <class Integer>
   requires std::integral<Integer> std::string operator()(const Integer*) const { return with_limits("a whole number"); }
+  template <class Integer>
+  std::string operator()(const std::optional<Integer>*) const {
+    return with_limits("a whole number");
+  }
 };
 
 /// "bodies[1]" is called bodies, and insitu.ranges belongs to insitu.

@@ -127,7 +127,7 @@ bool run(Simulation& sim, const std::vector<Observer*>& observers, bool (*stop)(
     for (Observer* observer : observers) observer->observe(sim, last);
   };
   auto finished = [&] {
-    return sim.clock.time >= end - round_off || (sim.scene.max_steps > 0 && sim.clock.step >= sim.scene.max_steps);
+    return sim.clock.time >= end - round_off || (sim.scene.max_steps && sim.clock.step >= *sim.scene.max_steps);
   };
   while (!finished()) {
     if (stop()) {

@@ -9,12 +9,6 @@
 
 namespace ejecta {
 
-namespace {
-
-bool is_gas(const Material& material) { return std::holds_alternative<IdealGas>(material.eos); }
-
-}  // namespace
-
 template <int Dim>
 Outset outset(const Particles<Dim>& p, const Scene& scene, const std::vector<Material>& materials) {
   Outset start;
@@ -30,7 +24,7 @@ Outset outset(const Particles<Dim>& p, const Scene& scene, const std::vector<Mat
     const Vec<Dim> mv = p.column(Field::mass)[i] * p.vector(Field::velocity, i);
     body.mass += p.column(Field::mass)[i];
     body.velocity.template head<Dim>() += mv;
-    body.may_be_target = !scene.bodies[b].driven && !is_gas(material_of(i));
+    body.may_be_target = !scene.bodies[b].driven && !material_of(i).gas();
     momentum += mv;
     mass += p.column(Field::mass)[i];
   }
@@ -44,7 +38,7 @@ Outset outset(const Particles<Dim>& p, const Scene& scene, const std::vector<Mat
   }
   for (std::size_t i = 0; i < p.size(); ++i) {
     const double density = p.column(Field::density)[i], u = relative_speed;
-    const bool gas = is_gas(material_of(i));
+    const bool gas = material_of(i).gas();
     start.density = std::max(start.density, gas ? density : 1.2 * density);
     start.pressure =
         std::max({start.pressure, std::abs(p.column(Field::pressure)[i]),

@@ -46,7 +46,7 @@ void hold_density(Sph<Dim>& sph, const Material& material, double share, std::si
   const double least = least_density_share * share * by_spacing, most = most_density_share / share * by_spacing;
   double& density = p.column(Field::density)[i];
   const double target = sph.scene.numerics.nodes_per_h;
-  if (std::holds_alternative<IdealGas>(material.eos)) {
+  if (material.gas()) {
     density = std::max(density, least);
     if (nodes > least_filling * target) density = std::min(density, most);
     return;

@@ -8,9 +8,7 @@ std::vector<int> pieces_of(const Scene& scene, const std::vector<Material>& mate
                            const std::vector<int>& body_material) {
   const std::size_t bodies = scene.bodies.size();
   const auto solid = [&](std::size_t b) { return materials[static_cast<std::size_t>(body_material[b])].solid(); };
-  const auto gas = [&](std::size_t b) {
-    return std::holds_alternative<IdealGas>(materials[static_cast<std::size_t>(body_material[b])].eos);
-  };
+  const auto gas = [&](std::size_t b) { return materials[static_cast<std::size_t>(body_material[b])].gas(); };
   constexpr int fluid = 1;
   std::vector<int> piece(bodies);
   for (std::size_t b = 0; b < bodies; ++b) piece[b] = gas(b) ? 0 : solid(b) ? static_cast<int>(b) + 1 + fluid : fluid;

@@ -6,6 +6,7 @@
 
 #include "base/errors.hpp"
 #include "base/parallel.hpp"
+#include "material/material_reader.hpp"
 #include "particles/smoothing_metric.hpp"
 #include "scene/units.hpp"
 #include "schemes/kernels.hpp"
@@ -72,7 +73,8 @@ void apply_profiles(Sph<Dim>& sph, const std::vector<Placement<Dim>>& placements
     evaluate("specific_energy", profile.specific_energy,
              [&](std::size_t i, double value) { p.column(Field::specific_energy)[i] = value; });
     evaluate("pressure", profile.pressure, [&](std::size_t i, double value) {
-      p.column(Field::specific_energy)[i] = std::get<IdealGas>(material.eos).energy(p.column(Field::density)[i], value);
+      const double density = p.column(Field::density)[i];
+      p.column(Field::specific_energy)[i] = specific_energy_at(material.eos, density, value).value();
     });
     for (std::size_t a = 0; a < profile.velocity.size(); ++a)
       evaluate("velocity", profile.velocity[a],
@@ -82,11 +84,6 @@ void apply_profiles(Sph<Dim>& sph, const std::vector<Placement<Dim>>& placements
         p.column(Field::deviatoric_stress, static_cast<int>(k))[i] = value;
       });
   }
-}
-
-double initial_energy(const Body& body, const Material& material, double density) {
-  if (std::isnan(body.pressure)) return body.specific_energy;
-  return std::get<IdealGas>(material.eos).energy(density, body.pressure);
 }
 
 template <int Dim>

@@ -6,9 +6,9 @@ namespace ejecta {
 
 namespace {
 
-/// What a switch means; automatic: yes unless all is ideal gas.
+/// What a switch means; automatic: yes unless all is gas.
 bool holds(Switch choice, const std::vector<Material>& materials) {
-  const auto gas = [](const Material& m) { return std::holds_alternative<IdealGas>(m.eos); };
+  const auto gas = [](const Material& m) { return m.gas(); };
   return choice == Switch::on || (choice == Switch::automatic && !std::all_of(materials.begin(), materials.end(), gas));
 }
 
@@ -35,7 +35,7 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
   const bool solid = any([](const Material& m) { return m.solid(); });
   const bool yields = any([](const Material& m) { return m.solid() && m.strength; });
   const bool porous = any([](const Material& m) { return m.porosity.has_value(); });
-  const bool variable_shear = any([](const Material& m) { return m.variable_shear() != nullptr; });
+  const bool variable_shear = any([](const Material& m) { return m.variable_shear(); });
   const bool shears = any([](const Material& m) { return m.breaks_in_shear(); });
   const bool crushes = any([](const Material& m) { return m.porosity && m.porosity->crush_damage && m.solid(); });
   const bool breaks = shears || crushes || any([](const Material& m) { return m.damage.has_value(); });
@@ -44,10 +44,7 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
   const bool tensor_cracks = any([](const Material& m) { return m.tensor_damage(); });
   const bool coupled = any([](const Material& m) { return m.cuts_pairs(); });
   const bool dealt = any([](const Material& m) { return m.damage && m.damage->growth == CrackLaw::benz_asphaug; });
-  const bool hardening = any([](const Material& m) {
-    const auto hardens_of = [](const auto& model) { return hardens<std::decay_t<decltype(model)>>; };
-    return m.solid() && m.strength && !m.variable_shear() && std::visit(hardens_of, *m.strength);
-  });
+  const bool warms = any([](const Material& m) { return m.yield_needs_temperature(); });
   const bool driven = std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) { return b.driven; });
   const bool continuity = scene.numerics.density == DensityMethod::continuity;
   const bool balsara = holds(scene.numerics.balsara, materials);
@@ -84,7 +81,7 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
   if (yields)
     add("strength",
         Fields{deviatoric_stress, pressure, specific_energy, plastic_strain}
-            .with(hardening, {density})
+            .with(warms, {density})
             .with(porous, {distension})
             .with(breaks, {Field::damage})
             .with(shears, {shear_damage})

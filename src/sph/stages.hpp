@@ -7,7 +7,7 @@ namespace ejecta {
 template <int Dim>
 std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Material>& materials);
 
-/// Whether gradients are corrected: by default wherever there is more than ideal gas.
+/// Whether gradients are corrected: by default wherever there is more than gas.
 bool corrects_gradients(const Scene& scene, const std::vector<Material>& materials);
 
 /// Every field a stage list names, in catalogue order.

@@ -25,7 +25,7 @@ struct State {
 };
 
 DistensionResult solve(const CrushCurve& curve, const Tillotson& eos, const State& s, DistensionSolver method) {
-  return solve_distension(curve, eos, s.rho, s.e, s.alpha_old, method, tolerance);
+  return solve_distension(curve, eos, s.rho, s.e, s.alpha_old, {method, tolerance});
 }
 
 double residual(const CrushCurve& curve, const Tillotson& eos, const State& s, double alpha) {

@@ -36,7 +36,7 @@ std::vector<State> random_states(const CrushCurve& curve) {
 
 template <DistensionSolver method>
 DistensionResult own(const CrushCurve& curve, const State& s, double tolerance) {
-  return solve_distension(curve, solid, s.rho, s.e, s.alpha_old, method, tolerance);
+  return solve_distension(curve, solid, s.rho, s.e, s.alpha_old, {method, tolerance});
 }
 
 /// Alefeld, Potra & Shi (1995), ACM Trans. Math. Softw. 21, 327, on the same residual and bracket.

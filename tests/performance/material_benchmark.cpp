@@ -74,7 +74,7 @@ void porous(benchmark::State& state, double compression, double most_energy) {
   for (std::size_t i = 0; i < rho.size(); ++i) {
     rho[i] *= eos.rho0 / alpha[i];
     evaluations += solve_distension(sim.materials[0].porosity->curve, eos, rho[i], energy[i], alpha[i],
-                                    sim.scene.numerics.distension_solver, sim.scene.numerics.distension_tolerance)
+                                    {sim.scene.numerics.distension_solver, sim.scene.numerics.distension_tolerance})
                        .evaluations;
   }
   auto measured = measure_stage(state, sim, "equation of state");

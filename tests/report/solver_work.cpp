@@ -39,7 +39,7 @@ DistensionResult toms748(const CrushCurve& curve, const Tillotson& eos, const St
 
 template <DistensionSolver method>
 DistensionResult shipped(const CrushCurve& curve, const Tillotson& eos, const State& s, double tolerance) {
-  return solve_distension(curve, eos, s.rho, s.e, s.alpha_old, method, tolerance);
+  return solve_distension(curve, eos, s.rho, s.e, s.alpha_old, {method, tolerance});
 }
 
 struct Method {

@@ -17,7 +17,7 @@ using namespace ejecta::survival;
 
 template <int Dim>
 Verdict attempt(const Run& run, const std::vector<Material>& materials, const std::vector<std::string>& settings) {
-  const bool gas = is_gas(material_named(materials, run.ball)) || is_gas(material_named(materials, run.target));
+  const bool gas = material_named(materials, run.ball).gas() || material_named(materials, run.target).gas();
   try {
     const Scene scene = parse_scene(scene_of(run, materials), "survival.toml", settings);
     const auto sim = set_up<Dim>(scene, read_materials(scene, EJECTA_SOURCE_DIR "/inputs/materials").list);

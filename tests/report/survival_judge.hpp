@@ -123,7 +123,7 @@ Verdict judge(Sph<Dim>& sim, double speed, bool gas) {
     for (std::size_t i = 0; i < p.size(); ++i) {
       v.thinnest = std::min(v.thinnest, ratios[i]);
       const Material& material = sim.materials[static_cast<std::size_t>(p.label(Label::material)[i])];
-      const bool spray = p.column(Field::smoothing_length)[i] > widest && !is_gas(material);
+      const bool spray = p.column(Field::smoothing_length)[i] > widest && !material.gas();
       double& densest = spray ? v.densest_spray : v.densest;
       densest = std::max(densest, ratios[i]);
     }

@@ -27,7 +27,6 @@ struct Run {
   std::string name() const { return fmt::format("{} into {} {} {}", ball, target, speed, variant); }
 };
 
-inline bool is_gas(const Material& material) { return std::holds_alternative<IdealGas>(material.eos); }
 /// Cracks with directions need a deviator, and a law that bounds it.
 inline bool can_crack(const Material& material) { return material.damage && material.strength; }
 
@@ -74,7 +73,7 @@ inline std::string scene_of(const Run& run, const std::vector<Material>& materia
   auto body = [&](std::string_view name, const Material& material, double radius) {
     return fmt::format("[[bodies]]\nname = \"{}\"\nmaterial = \"{}\"\nshape = \"{}\"\nradius = \"{} mm\"\n{}", name,
                        material.name, flat ? "disc" : "sphere", radius,
-                       is_gas(material) ? "pressure = \"100 kPa\"\n" : "");
+                       material.gas() ? "pressure = \"100 kPa\"\n" : "");
   };
   std::string text = fmt::format(
       "[scene]\nname = \"survival\"\ntitle = \"{}\"\ndimension = {}\n[resolution]\nspacing = \"1 mm\"\n"

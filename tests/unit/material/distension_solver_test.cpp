@@ -78,7 +78,7 @@ std::array<Run, 3> run(const CrushCurve& curve, const std::vector<State>& states
       const std::clock_t start = std::clock();
       for (std::size_t i = begin; i < end; ++i) {
         const auto& [rho, e, alpha_old] = states[i];
-        const DistensionResult d = solve_distension(curve, matrix, rho, e, alpha_old, methods[m], tolerance);
+        const DistensionResult d = solve_distension(curve, matrix, rho, e, alpha_old, {methods[m], tolerance});
         runs[m].alpha[i] = d.alpha;
         runs[m].evaluations += d.evaluations / static_cast<double>(states.size());
         runs[m].failures += !d.converged;
@@ -90,7 +90,7 @@ std::array<Run, 3> run(const CrushCurve& curve, const std::vector<State>& states
 }
 
 bool converges(const CrushCurve& curve, const State& s, DistensionSolver method) {
-  return solve_distension(curve, matrix, s.rho, s.e, s.alpha_old, method, tolerance).converged;
+  return solve_distension(curve, matrix, s.rho, s.e, s.alpha_old, {method, tolerance}).converged;
 }
 
 void check_million(const char* name, const CrushCurve& curve) {
@@ -156,21 +156,21 @@ TEST(SolveDistension, MillionStatesOfTheTwoPowerCurve) { check_million("two-powe
 TEST(SolveDistension, PlainNewtonCyclesBetweenTheKinksAndSaysSo) {
   const State s{1100, 1e3, 3};
   const DistensionResult plain =
-      solve_distension(quadratic, matrix, s.rho, s.e, s.alpha_old, DistensionSolver::newton, tolerance);
+      solve_distension(quadratic, matrix, s.rho, s.e, s.alpha_old, {DistensionSolver::newton, tolerance});
   EXPECT_FALSE(plain.converged);
   EXPECT_LE(plain.evaluations, 61);
   const DistensionResult safe =
-      solve_distension(quadratic, matrix, s.rho, s.e, s.alpha_old, DistensionSolver::safe_newton, tolerance);
+      solve_distension(quadratic, matrix, s.rho, s.e, s.alpha_old, {DistensionSolver::safe_newton, tolerance});
   EXPECT_TRUE(safe.converged);
   EXPECT_LT(std::abs(residual(quadratic, s, safe.alpha)), 1e-9);
 }
 
 TEST(SolveDistension, ElasticAndCompactedStatesCostOneEvaluation) {
   for (const auto method : {DistensionSolver::safe_newton, DistensionSolver::bisection, DistensionSolver::newton}) {
-    const DistensionResult elastic = solve_distension(quadratic, matrix, 775, 0, 2.7, method, tolerance);
+    const DistensionResult elastic = solve_distension(quadratic, matrix, 775, 0, 2.7, {method, tolerance});
     EXPECT_EQ(elastic.evaluations, 1);
     EXPECT_EQ(elastic.alpha, 2.7);
-    const DistensionResult solid = solve_distension(quadratic, matrix, 3000, 1e6, 1, method, tolerance);
+    const DistensionResult solid = solve_distension(quadratic, matrix, 3000, 1e6, 1, {method, tolerance});
     EXPECT_EQ(solid.evaluations, 1);
     EXPECT_EQ(solid.alpha, 1);
     EXPECT_EQ(solid.solid.pressure, matrix.evaluate(3000, 1e6).pressure);
@@ -182,7 +182,7 @@ TEST(SolveDistension, IsIdempotent) {
   for (const CrushCurve& curve : {quadratic, two_power})
     for (const State& s : random_states(curve, 20000)) {
       const auto again = [&](double alpha) {
-        return solve_distension(curve, matrix, s.rho, s.e, alpha, DistensionSolver::safe_newton, tolerance).alpha;
+        return solve_distension(curve, matrix, s.rho, s.e, alpha, {DistensionSolver::safe_newton, tolerance}).alpha;
       };
       const double alpha = again(s.alpha_old);
       ASSERT_EQ(again(alpha), alpha);
@@ -221,7 +221,7 @@ TEST(SolveDistension, TakesTheLargestOfSeveralZeros) {
       }
     }
     const DistensionResult r =
-        solve_distension(curve, eos, rho, e, alpha_old, DistensionSolver::safe_newton, tolerance);
+        solve_distension(curve, eos, rho, e, alpha_old, {DistensionSolver::safe_newton, tolerance});
     ASSERT_TRUE(r.converged);
     ASSERT_TRUE(r.alpha >= 1 && r.alpha <= alpha_old);
     ASSERT_LT(r.evaluations, 250);

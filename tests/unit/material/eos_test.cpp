@@ -122,12 +122,22 @@ TEST(Tillotson, VapourIsAnIdealGas) {
 TEST(IdealGas, PressureEnergyAndSoundSpeed) {
   const IdealGas air{1.4, 1.2};
   EXPECT_DOUBLE_EQ(air.evaluate(1, 2.5).pressure, 1);
-  EXPECT_DOUBLE_EQ(air.energy(0.125, 0.1), 2);
-  EXPECT_DOUBLE_EQ(air.evaluate(0.3, air.energy(0.3, 17.0)).pressure, 17.0);
+  EXPECT_DOUBLE_EQ(air.specific_energy(0.125, 0.1), 2);
+  EXPECT_DOUBLE_EQ(air.evaluate(0.3, air.specific_energy(0.3, 17.0)).pressure, 17.0);
   EXPECT_NEAR(sound_speed(air.evaluate(1, 2.5), 1, air.sound_speed_floor()), std::sqrt(1.4), 1e-15);
   EXPECT_EQ(sound_speed(air.evaluate(1, 0), 1, air.sound_speed_floor()), 0);
   EXPECT_EQ(reference_density(Eos{air}), 1.2);
   EXPECT_EQ(reference_density(Eos{basalt}), 2700);
+}
+
+TEST(Eos, SaysWhatItCanDo) {
+  const IdealGas air{1.4, 1.2};
+  EXPECT_TRUE(is_gas(air));
+  EXPECT_FALSE(is_gas(basalt));
+  EXPECT_EQ(specific_energy_at(air, 0.3, 17.0), air.specific_energy(0.3, 17.0));
+  EXPECT_EQ(specific_energy_at(basalt, 2700, 17.0), std::nullopt);
+  EXPECT_TRUE(has_temperature(MieGrueneisen{}));
+  EXPECT_FALSE(has_temperature(air));
 }
 
 }  // namespace

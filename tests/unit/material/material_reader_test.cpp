@@ -112,6 +112,24 @@ TEST(ReadMaterial, OverridesReplaceValues) {
   EXPECT_EQ(pumice.porosity->curve.n1, 12);
 }
 
+TEST(ReadMaterial, WhatIsNotGivenIsNotSet) {
+  const Material bare = read_material("x", {},
+                                      parse_document("[eos]\nmodel = \"mie_grueneisen\"\ndensity = \"1 g/cm^3\"\n"
+                                                     "c0 = \"1 km/s\"\nS1 = 1\ngamma0 = 1\n",
+                                                     "s"));
+  const auto& eos = std::get<MieGrueneisen>(bare.eos);
+  EXPECT_FALSE(eos.warms());
+  EXPECT_FALSE(eos.melts());
+  EXPECT_FALSE(is_set(bare.melt_energy));
+  EXPECT_FALSE(is_set(
+      read_material("pumice", {library}, parse_document("[porosity]\nsound_speed = 0\n", "s")).porosity->sound_speed));
+  const Material rock = read_material("basalt", {library}, parse_document("[strength]\nbrittle_ductile = 0\n", "s"));
+  EXPECT_FALSE(rock.breaks_in_shear());
+  EXPECT_EQ(
+      problems_of([] { read_material("basalt", {library}, parse_document("[strength]\nbrittle_plastic = 0\n", "s")); }),
+      One{"s:2: strength.brittle_plastic: expected more than brittle_ductile (1.23 GPa)"});
+}
+
 TEST(ReadMaterial, AnotherModelReplacesTheSection) {
   const Document overrides = parse_document(R"([porosity]
 model = "quadratic"
@@ -173,7 +191,7 @@ TEST(ReadMaterial, RefusesWithReason) {
             One{"m.toml:20: strength.limit: expected more than the cohesion (2 GPa)"});
   EXPECT_EQ(
       problems_of_text("[eos]\nmodel = \"ideal_gas\"\ngamma = 1.4\ndensity = \"1 kg/m^3\"\n" + elastic + two_power),
-      (One{"m.toml:5: elastic: an ideal gas has no moduli", "m.toml:9: porosity.model: an ideal gas has no pores"}));
+      (One{"m.toml:5: elastic: a gas has no moduli", "m.toml:9: porosity.model: a gas has no pores"}));
   const auto changed = [](std::string text, const std::string& from, const std::string& to) {
     return problems_of_text(text.replace(text.find(from), from.size(), to));
   };
@@ -195,11 +213,13 @@ TEST(ReadMaterial, MetalsInSi) {
   EXPECT_EQ(eos.c0, 4570);
   EXPECT_EQ(eos.melt_exponent, 1.4);
   EXPECT_EQ(std::get<SteinbergGuinan>(*steel.strength).stiffening, 0.0226e-9);
-  EXPECT_EQ(steel.variable_shear(), &std::get<SteinbergGuinan>(*steel.strength));
+  EXPECT_TRUE(steel.variable_shear());
+  EXPECT_FALSE(steel.yield_needs_temperature());
   EXPECT_EQ(steel.damage->weibull_k, 6.52e11);
   const Material fast = read_material("steel_4340", {library});
   EXPECT_EQ(std::get<JohnsonCook>(*fast.strength).hardening, 510e6);
-  EXPECT_EQ(fast.variable_shear(), nullptr);
+  EXPECT_FALSE(fast.variable_shear());
+  EXPECT_TRUE(fast.yield_needs_temperature());
   const Material tantalum = read_material("tantalum", {library});
   EXPECT_EQ(warmth(std::get<MieGrueneisen>(tantalum.eos), 16654, 1e9).rise, 0) << "no heat capacity: never warms";
   EXPECT_EQ(read_material("rubber", {library}).elastic->shear_modulus, 161.2959e6);

@@ -15,7 +15,7 @@ const CrushCurve quadratic = CrushCurve::quadratic(3, 1e6, 2.13e8);
 const CrushCurve two_power = CrushCurve::two_power(3, 4.64, 1.90, 1e6, 6.8e7, 2.13e8, 12, 3);
 
 double solve(const CrushCurve& curve, double rho, double e, double alpha_old) {
-  return solve_distension(curve, matrix, rho, e, alpha_old, DistensionSolver::safe_newton, 1e-13).alpha;
+  return solve_distension(curve, matrix, rho, e, alpha_old, {DistensionSolver::safe_newton, 1e-13}).alpha;
 }
 
 TEST(CrushCurve, PumiceOfBulkDensity700) {
@@ -81,7 +81,7 @@ TEST(SolveDistension, ReproducesReferenceRoots) {
   for (const auto method : {DistensionSolver::safe_newton, DistensionSolver::bisection})
     for (const Root& r : roots) {
       const auto check = [&](const CrushCurve& curve, double alpha, double pressure) {
-        const DistensionResult s = solve_distension(curve, matrix, r.rho, r.e, r.alpha_old, method, 1e-13);
+        const DistensionResult s = solve_distension(curve, matrix, r.rho, r.e, r.alpha_old, {method, 1e-13});
         EXPECT_TRUE(s.converged);
         EXPECT_NEAR(s.alpha, alpha, 1.1e-12) << r.rho;
         EXPECT_NEAR(bulk_pressure(s.solid, s.alpha), pressure, 6e-8 * std::abs(pressure) + 0.02) << r.rho;
@@ -100,7 +100,7 @@ TEST(SolveDistension, IsIrreversible) {
       const auto go = [&](double from, double to, auto&& check) {
         for (int k = 0; k <= 400; ++k) {
           const double rho = from + (to - from) * k / 400;
-          const DistensionResult s = solve_distension(curve, matrix, rho, 1e4, alpha, method, 1e-12);
+          const DistensionResult s = solve_distension(curve, matrix, rho, 1e4, alpha, {method, 1e-12});
           ASSERT_LE(s.alpha, alpha);
           ASSERT_GE(s.alpha, 1);
           alpha = s.alpha;

@@ -136,6 +136,24 @@ TEST(Boundary, FacesAreSaidTogetherOrOneByOne) {
   }
 }
 
+TEST(SceneToml, HasZeroForNotSetWhereZeroHasAlwaysMeantThat) {
+  const Scene given =
+      parse_scene(valid_scene, "s.toml", {"time.max_steps=9", "run.threads=2", "output.checkpoint_interval=5 s"});
+  EXPECT_EQ(given.max_steps, 9);
+  EXPECT_EQ(given.threads, 2);
+  EXPECT_EQ(given.output.checkpoint_interval, 5);
+  const Scene none =
+      parse_scene(scene_toml(given), "s.toml", {"time.max_steps=0", "run.threads=0", "output.checkpoint_interval=0"});
+  const Scene again = parse_scene(scene_toml(none), "resolved.toml");
+  for (const Scene* scene : {&none, &again}) {
+    EXPECT_FALSE(scene->max_steps);
+    EXPECT_FALSE(scene->threads);
+    EXPECT_FALSE(is_set(scene->output.checkpoint_interval));
+  }
+  EXPECT_NE(scene_toml(none).find("\nmax_steps = 0  #"), std::string::npos);
+  EXPECT_EQ(scene_toml(again), scene_toml(none));
+}
+
 TEST(SceneToml, HoldsDefaultsInSi) {
   const std::string echo = scene_toml(parse_scene(valid_scene, "s.toml"));
   EXPECT_NE(echo.find("\nspacing = \"0.001 m\"  #"), std::string::npos);

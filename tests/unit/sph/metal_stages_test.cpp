@@ -36,8 +36,9 @@ TEST(ShearModulus, FollowsPressureAndTemperatureInAllStages) {
   at(*sim, Field::specific_energy) = 3e5;
   equation_of_state(*sim);
   const MieGrueneisen& eos = std::get<MieGrueneisen>(steel.eos);
+  const auto& law = std::get<SteinbergGuinan>(*steel.strength);
   const EosPoint point = eos.evaluate(rho, 3e5);
-  const double shear = 77e9 * steel.variable_shear()->shear_factor(point.pressure, 1.1, warmth(eos, rho, 3e5));
+  const double shear = 77e9 * law.shear_factor(point.pressure, 1.1, warmth(eos, rho, 3e5));
   EXPECT_EQ(at(*sim, Field::shear_modulus), shear);
   EXPECT_GT(shear, 1.05 * 77e9);
   const double bulk = point.dP_drho + point.pressure / (rho * rho) * point.dP_de;
@@ -52,7 +53,7 @@ TEST(ShearModulus, FollowsPressureAndTemperatureInAllStages) {
   strength(*sim);
   const double equivalent = std::sqrt(3.0) * at(*sim, Field::deviatoric_stress, 2);
   const double strain = at(*sim, Field::plastic_strain);
-  const double yield = steel.variable_shear()->yield({.plastic_strain = strain, .shear_factor = shear / 77e9});
+  const double yield = law.yield({.plastic_strain = strain, .shear_factor = shear / 77e9});
   EXPECT_NEAR(equivalent, yield, 1e-10 * yield);
   EXPECT_NEAR(std::sqrt(3.0) * 2e9 - equivalent, 3 * shear * strain, 1e-3);
 
@@ -145,7 +146,7 @@ TEST(DrivenParticle, ObeysSteinbergAndGuinanAtAnyRate) {
                 fast = shear(*one_particle("steel_304"), 1e6, 1, 2000);
   EXPECT_NEAR(slow.equivalent, fast.equivalent, 1e-9 * slow.equivalent);
   const auto sim = one_particle("steel_304");
-  const SteinbergGuinan& law = *sim->materials[0].variable_shear();
+  const auto& law = std::get<SteinbergGuinan>(*sim->materials[0].strength);
   const double warmer = slow.energy / 450.62, pressure = 1.93 * 7900 * slow.energy;
   const double factor = law.shear_factor(pressure, 1, {warmer, 2080});
   const double strain = 1 / std::sqrt(3.0) - slow.equivalent / (3 * 77e9 * factor);

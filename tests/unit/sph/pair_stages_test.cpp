@@ -91,7 +91,7 @@ TEST(StrainRates, OfACrushedBodyAreThoseOfItsSolid) {
   const double next = std::visit(
       [&](const auto& eos) {
         return solve_distension(pumice.porosity->curve, eos, rho * (1 + more), e + P / rho * more, alpha,
-                                DistensionSolver::bisection, 1e-14)
+                                {DistensionSolver::bisection, 1e-14})
             .alpha;
       },
       pumice.eos);
