@@ -76,7 +76,7 @@ class PairPass {
   /// with weights f_ij = 1 - max(n.D_i n, n.D_j n), n the direction of the pair (D = 0 where a material is not cut): an
   /// opening crack does not strain the matter beside it.
   ///
-  /// Reads what PairRecord reads; writes acceleration, heating, zeroth_moment, largest_mu, velocity_gradient,
+  /// Reads what PairRecord reads; writes acceleration, specific_energy_rate, zeroth_moment, largest_mu, velocity_gradient,
   /// uncut_gradient, stretch (of bonds: the largest |x_ij|/|X_ij|, at least 1).
   virtual void rates(Particles<Dim>& particles, const PairLists<Dim>& lists) = 0;
 

@@ -50,7 +50,7 @@ void driven_bodies(Sph<Dim>& sph);
 /// Density by summation, with smoothing lengths that belong to it.
 template <int Dim>
 void summation_density(Sph<Dim>& sph);
-/// Accelerations, heating and velocity gradients.
+/// Accelerations, rates of specific energy and velocity gradients.
 template <int Dim>
 void pair_rates(Sph<Dim>& sph);
 /// Rates of density and stress from the velocity gradient.
