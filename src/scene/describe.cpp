@@ -9,8 +9,7 @@ namespace ejecta {
 void describe(Describer& d, Body& b) {
   d.text("name", b.name, "how messages, --set and the images call the body").required = true;
   d.text("material", b.material, "name of materials/<material>.toml").required = true;
-  d.word("shape", b.shape, {"sphere", "box", "cylinder", "disc", "rectangle"},
-         "disc and rectangle in 2D, the others in 3D");
+  d.choice("shape", b.shape, "disc and rectangle in 2D, the others in 3D");
   d.triple("center", b.center, "m", "centre of the shape");
   d.number("radius", b.radius, "m", positive, "of a sphere, disc or cylinder");
   d.number("inner_radius", b.inner_radius, "m", non_negative, "of the hole in a sphere, disc or cylinder");

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scene/body_shape.hpp"
 #include "scene/choices.hpp"
 #include "scene/document.hpp"
 #include "scene/section.hpp"
@@ -32,7 +33,7 @@ struct Profile {
 struct Body {
   std::string name;
   std::string material;              ///< name of inputs/materials/<material>.toml
-  std::string shape = "sphere";      ///< sphere | box | cylinder (2D: disc | rectangle)
+  BodyShape shape = BodyShape::sphere;
   Triple center{0, 0, 0};            ///< m
   double radius = unset;             ///< m; sphere, disc, cylinder
   double inner_radius = 0;           ///< m; of the hole in them
@@ -50,6 +51,9 @@ struct Body {
   double jitter = 0;                 ///< random displacement along each axis, up to this many spacings
   Profile profile;
 };
+
+/// Diameter, edges, length [m]: those that the shape of a body has, not a number where it is not set.
+std::vector<double> widths(const Body& body, int dimension);
 
 struct Numerics {
   SchemeKind scheme = SchemeKind::sph;
