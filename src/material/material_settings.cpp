@@ -7,6 +7,7 @@
 #include <functional>
 #include <numbers>
 
+#include "scene/names.hpp"
 #include "scene/units.hpp"
 
 namespace ejecta {
@@ -35,21 +36,34 @@ const std::array<Named<Strength>, 6> strength_models{{{"von_mises", VonMises{}},
                                                       {"collins", Collins{}},
                                                       {"steinberg_guinan", SteinbergGuinan{}},
                                                       {"johnson_cook", JohnsonCook{}}}};
-const std::vector<std::string> damage_models{"none", "grady_kipp", "grady_kipp_tensor"};
-const std::vector<std::string> porosity_models{"none", "quadratic", "two_power"};
 
 template <std::size_t N, class Model>
-std::vector<std::string> words(const std::array<Named<Model>, N>& models, bool with_none) {
+std::vector<std::string> words(const std::array<Named<Model>, N>& models) {
   std::vector<std::string> names;
-  if (with_none) names.emplace_back("none");
   for (const auto& model : models) names.emplace_back(model.name);
   return names;
 }
+template <class Enum>
+std::vector<std::string> words() {
+  const auto names = enum_names(Enum{});
+  return {names.begin(), names.end()};
+}
+std::vector<std::string> with_none(std::vector<std::string> words) {
+  words.insert(words.begin(), "none");
+  return words;
+}
 
 template <std::size_t N, class Model>
-void start(Model& model, const std::string& name, const std::array<Named<Model>, N>& models) {
+std::string word_of(const std::optional<Model>& model, const std::array<Named<Model>, N>& models) {
   for (const auto& candidate : models)
-    if (candidate.name == name) model = candidate.initial;
+    if (model && model->index() == candidate.initial.index()) return std::string(candidate.name);
+  return "none";
+}
+
+/// The chosen model if it is this one, else null.
+template <class Model, class Any>
+const Model* as(const std::optional<Any>& chosen) {
+  return chosen ? std::get_if<Model>(&*chosen) : nullptr;
 }
 
 /// Models that melt at the melting temperature of the equation of state.
@@ -194,13 +208,13 @@ void check_mie_grueneisen(const MieGrueneisen& m, const Report& report) {
 }
 
 void check_metal(const MaterialSettings& s, const Report& report) {
-  const auto* eos = std::get_if<MieGrueneisen>(&s.eos);
+  const auto* eos = as<MieGrueneisen>(s.eos);
   if (!eos) return report("strength.model", "needs the temperature of eos.model = \"mie_grueneisen\"");
   const auto needs_heat = [&](bool does) {
     if (does && !is_set(eos->heat_capacity))
       report("eos.heat_capacity", "missing: the strength depends on the temperature");
   };
-  if (const auto* m = std::get_if<SteinbergGuinan>(&s.strength)) {
+  if (const auto* m = as<SteinbergGuinan>(s.strength)) {
     if (m->yield_limit != 0 && m->yield_limit < m->yield_stress)
       report("strength.yield_limit",
              fmt::format("expected at least the yield stress ({})", format_quantity(m->yield_stress, "Pa")));
@@ -215,71 +229,72 @@ void check_metal(const MaterialSettings& s, const Report& report) {
 }  // namespace
 
 void choose_models(MaterialSettings& settings, Document& document, Problems& problems) {
-  const auto choose = [&](const std::string& section, std::string& model, const std::vector<std::string>& known) {
+  // The place of the model's word among the known ones; nothing where the section, which may miss, is not there.
+  const auto choose = [&](const std::string& section, const std::vector<std::string>& known,
+                          bool may_miss = true) -> std::optional<std::size_t> {
     const std::string path = section + ".model";
-    const bool written = document.tables.contains(section) || !document.children(section).empty();
-    if (!written && !model.empty()) return;
+    if (may_miss && !document.holds(section)) return std::nullopt;
     const auto item = document.items.find(path);
     const auto* name = item == document.items.end() ? nullptr : std::get_if<std::string>(&item->second.literal.value);
-    if (name && std::find(known.begin(), known.end(), *name) != known.end()) {
-      model = *name;
-      return;
-    }
+    const auto found = name ? std::ranges::find(known, *name) : known.end();
+    if (found != known.end()) return static_cast<std::size_t>(found - known.begin());
     problems.add(document.origin(path), path,
                  fmt::format("expected one of {}, got {}", fmt::join(known, ", "),
                              item == document.items.end() ? "nothing" : to_text(item->second.literal)));
     std::erase_if(document.items, [&](const auto& entry) { return entry.first.starts_with(section + "."); });
+    return std::nullopt;
   };
-  choose("eos", settings.eos_model, words(eos_models, false));
-  choose("strength", settings.strength_model, words(strength_models, true));
-  choose("damage", settings.damage_model, damage_models);
-  choose("porosity", settings.porosity_model, porosity_models);
-  start(settings.eos, settings.eos_model, eos_models);
-  start(settings.strength, settings.strength_model, strength_models);
-  settings.has_elastic = document.tables.contains("elastic") || !document.children("elastic").empty();
+  if (const auto k = choose("eos", words(eos_models), false)) settings.eos = eos_models[*k].initial;
+  if (document.holds("elastic")) settings.elastic.emplace();
+  if (const auto k = choose("strength", with_none(words(strength_models))); k && *k > 0)
+    settings.strength = strength_models[*k - 1].initial;
+  settings.damage_model = static_cast<DamageModel>(choose("damage", words<DamageModel>()).value_or(0));
+  settings.porosity_model = static_cast<PorosityModel>(choose("porosity", words<PorosityModel>()).value_or(0));
 }
 
 void describe(Describer& d, MaterialSettings& s) {
-  const auto model = [&](std::string& name, const std::vector<std::string>& known, std::string doc) {
-    d.word("model", name, known, std::move(doc)).required = name != "none";
+  const auto section = [&](std::string name, std::string_view what, const std::string& model,
+                           const std::vector<std::string>& known, std::string doc) {
+    d.section(std::move(name), fmt::format("{}: {}", what, model));
+    d.chosen("model", model, known, std::move(doc)).required = model != "none";
   };
-  d.section("eos", fmt::format("equation of state: {}", s.eos_model));
-  model(s.eos_model, words(eos_models, false), "the constants depend on it");
-  if (!s.eos_model.empty()) std::visit([&](auto& eos) { describe(d, eos); }, s.eos);
-  if (s.has_elastic) {
+  section("eos", "equation of state", word_of(s.eos, eos_models), words(eos_models), "the constants depend on it");
+  if (s.eos) std::visit([&](auto& eos) { describe(d, eos); }, *s.eos);
+  if (s.elastic) {
     d.section("elastic", "moduli of the solid; without this section the material is a fluid");
-    constant(d, "shear_modulus", s.elastic.shear_modulus, "Pa", positive, "without pores and damage");
-    constant(d, "bulk_modulus", s.elastic.bulk_modulus, "Pa", positive, "without pores and damage");
+    constant(d, "shear_modulus", s.elastic->shear_modulus, "Pa", positive, "without pores and damage");
+    constant(d, "bulk_modulus", s.elastic->bulk_modulus, "Pa", positive, "without pores and damage");
   }
-  d.section("strength", fmt::format("limit of the deviatoric stress: {}", s.strength_model));
-  model(s.strength_model, words(strength_models, true), "none: elastic without limit");
-  if (s.strength_model != "none") {
-    std::visit([&](auto& strength) { describe(d, strength); }, s.strength);
-    if (!knows_temperature(s.strength))
+  section("strength", "limit of the deviatoric stress", word_of(s.strength, strength_models),
+          with_none(words(strength_models)), "none: elastic without limit");
+  if (s.strength) {
+    std::visit([&](auto& strength) { describe(d, strength); }, *s.strength);
+    if (!knows_temperature(*s.strength))
       d.number("melt_energy", s.melt_energy, "J/kg", positive, "at which no strength is left; else it never softens");
   }
-  d.section("damage", fmt::format("brittle fracture: {}", s.damage_model));
-  model(s.damage_model, damage_models, "none: never breaks");
-  if (s.damage_model != "none") describe(d, s.damage, s.damage_model == "grady_kipp_tensor");
-  d.section("porosity", fmt::format("pores below the resolution (P-alpha): {}", s.porosity_model));
-  model(s.porosity_model, porosity_models, "form of the crush curve; none: no pores");
-  if (s.porosity_model != "none") describe(d, s.porosity, s.porosity_model == "two_power");
+  section("damage", "brittle fracture", std::string(name_of(s.damage_model)), words<DamageModel>(),
+          "none: never breaks");
+  if (s.damage_model != DamageModel::none) describe(d, s.damage, s.damage_model == DamageModel::grady_kipp_tensor);
+  section("porosity", "pores below the resolution (P-alpha)", std::string(name_of(s.porosity_model)),
+          words<PorosityModel>(), "form of the crush curve; none: no pores");
+  if (s.porosity_model != PorosityModel::none) describe(d, s.porosity, s.porosity_model == PorosityModel::two_power);
 }
 
 void check_settings(const MaterialSettings& s, const Document& document, Problems& problems) {
   const auto report = [&](const std::string& path, const std::string& message) {
     if (!problems.has(path)) problems.add(document.origin(path), path, message);
   };
-  const bool gas = std::holds_alternative<IdealGas>(s.eos);
-  if (const auto* t = std::get_if<Tillotson>(&s.eos); t && t->E_cv != 0 && t->E_cv <= t->E_iv)
+  const bool gas = as<IdealGas>(s.eos);
+  if (const auto* t = as<Tillotson>(s.eos); t && t->E_cv != 0 && t->E_cv <= t->E_iv)
     report("eos.E_cv", fmt::format("expected more than E_iv ({})", format_quantity(t->E_iv, "J/kg")));
-  if (const auto* m = std::get_if<MieGrueneisen>(&s.eos)) check_mie_grueneisen(*m, report);
-  if (s.strength_model != "none" && knows_temperature(s.strength)) check_metal(s, report);
-  if (gas && s.has_elastic) report("elastic", "an ideal gas has no moduli");
-  if (gas && s.porosity_model != "none") report("porosity.model", "an ideal gas has no pores");
-  if (!s.has_elastic && s.strength_model != "none") report("strength.model", "needs section [elastic]");
-  if (!s.has_elastic && s.damage_model != "none") report("damage.model", "needs section [elastic]");
-  if (s.damage_model == "grady_kipp_tensor" && s.strength_model == "none")
+  if (const auto* m = as<MieGrueneisen>(s.eos)) check_mie_grueneisen(*m, report);
+  const bool porous = s.porosity_model != PorosityModel::none, breaks = s.damage_model != DamageModel::none;
+  if (s.strength && knows_temperature(*s.strength)) check_metal(s, report);
+  if (gas && s.elastic) report("elastic", "an ideal gas has no moduli");
+  if (gas && porous) report("porosity.model", "an ideal gas has no pores");
+  if (!s.elastic && s.strength) report("strength.model", "needs section [elastic]");
+  if (!s.elastic && breaks) report("damage.model", "needs section [elastic]");
+  if (s.damage_model == DamageModel::grady_kipp_tensor && !s.strength)
     report("damage.model",
            "grady_kipp_tensor needs section [strength]: cracks with a direction cut off a deviatoric "
            "stress, and nothing would bound the one that is left");
@@ -287,8 +302,8 @@ void check_settings(const MaterialSettings& s, const Document& document, Problem
     if (m.limit != 0 && m.limit <= m.cohesion)
       report("strength.limit", fmt::format("expected more than the cohesion ({})", format_quantity(m.cohesion, "Pa")));
   };
-  if (const auto* m = std::get_if<Lundborg>(&s.strength)) check_limit(*m);
-  if (const auto* m = std::get_if<Collins>(&s.strength)) {
+  if (const auto* m = as<Lundborg>(s.strength)) check_limit(*m);
+  if (const auto* m = as<Collins>(s.strength)) {
     check_limit(m->intact);
     if (m->brittle_ductile > 0 && m->brittle_plastic <= m->brittle_ductile)
       report("strength.brittle_plastic",
@@ -310,22 +325,22 @@ void check_settings(const MaterialSettings& s, const Document& document, Problem
 Material make_material(const std::string& name, const MaterialSettings& s) {
   Material material;
   material.name = name;
-  material.eos = s.eos;
+  material.eos = s.eos.value();
   if (auto* eos = std::get_if<MieGrueneisen>(&material.eos)) {
     if (!is_set(eos->heat_capacity)) eos->heat_capacity = std::numeric_limits<double>::infinity();
     if (!is_set(eos->melt_temperature)) eos->melt_temperature = std::numeric_limits<double>::infinity();
   }
-  if (s.has_elastic) material.elastic = s.elastic;
-  if (s.strength_model != "none") material.strength = s.strength;
+  material.elastic = s.elastic;
+  material.strength = s.strength;
   if (is_set(s.melt_energy)) material.melt_energy = s.melt_energy;
-  if (s.damage_model != "none") {
+  if (s.damage_model != DamageModel::none) {
     material.damage = s.damage;
-    material.damage->tensor = s.damage_model == "grady_kipp_tensor";
+    material.damage->tensor = s.damage_model == DamageModel::grady_kipp_tensor;
   }
-  if (s.porosity_model == "none") return material;
+  if (s.porosity_model == PorosityModel::none) return material;
   const PorositySettings& p = s.porosity;
   const CrushCurve curve =
-      s.porosity_model == "quadratic"
+      s.porosity_model == PorosityModel::quadratic
           ? CrushCurve::quadratic(p.initial_distension, p.elastic_pressure, p.solid_pressure)
           : CrushCurve::two_power(p.initial_distension, p.reference_distension, p.transition_distension,
                                   p.elastic_pressure, p.transition_pressure, p.solid_pressure, p.n1, p.n2);
@@ -337,14 +352,11 @@ std::vector<MaterialSettings> every_model() {
   std::vector<MaterialSettings> all;
   for (std::size_t k = 0; k < strength_models.size(); ++k) {
     MaterialSettings s;
-    const auto& [eos_name, eos] = eos_models[k % eos_models.size()];
-    s.eos_model = eos_name;
-    s.eos = eos;
-    s.has_elastic = true;
-    s.strength_model = strength_models[k].name;
+    s.eos = eos_models[k % eos_models.size()].initial;
+    s.elastic.emplace();
     s.strength = strength_models[k].initial;
-    s.damage_model = damage_models[1 + k % 2];
-    s.porosity_model = porosity_models[1 + k % 2];
+    s.damage_model = static_cast<DamageModel>(1 + k % 2);
+    s.porosity_model = static_cast<PorosityModel>(1 + k % 2);
     all.push_back(s);
   }
   return all;

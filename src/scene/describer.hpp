@@ -66,7 +66,8 @@ class Describer {
   Setting& integer(std::string key, std::uint64_t& value, std::string doc);
   Setting& text(std::string key, std::string& value, std::string doc);
   Setting& texts(std::string key, std::vector<std::string>& values, std::string doc);
-  Setting& word(std::string key, std::string& value, const std::vector<std::string>& words, std::string doc);
+  /// A word on which the rest of the description depends: it has been read before, and is only echoed and documented.
+  Setting& chosen(std::string key, std::string word, std::vector<std::string> words, std::string doc);
 
   /// An enumeration whose words, in its order, are given by enum_names(value).
   template <class Enum>
