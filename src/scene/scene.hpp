@@ -32,7 +32,7 @@ struct Profile {
 /// One solid or gas body, filled with particles at set-up. Later bodies do not displace earlier ones.
 struct Body {
   std::string name;
-  std::string material;              ///< name of inputs/materials/<material>.toml
+  std::string material;  ///< name of inputs/materials/<material>.toml
   BodyShape shape = BodyShape::sphere;
   Triple center{0, 0, 0};            ///< m
   double radius = unset;             ///< m; sphere, disc, cylinder
