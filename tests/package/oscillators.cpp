@@ -112,7 +112,8 @@ PackageKind oscillators() {
   return {{"oscillators", "damped oscillators on anchored springs", [] { return std::make_shared<Settings>(); }},
           [](const Scene& scene, const std::vector<Material>&) -> std::unique_ptr<Package> {
             return std::make_unique<Oscillators>(dynamic_cast<const Settings&>(*scene.sections.at("oscillators")));
-          }};
+          },
+          {{"displacement", "m"}}};
 }
 
 }  // namespace ejecta
