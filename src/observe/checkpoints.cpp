@@ -34,7 +34,7 @@ CheckpointView checkpoint_view(const Simulation& sim, const std::string& resolve
   view.dt = sim.clock.dt;
   view.step = sim.clock.step;
   view.scene = resolved;
-  view.scalars = {{"wall_seconds", sim.wall_seconds}};
+  view.scalars = {{"wall_seconds", sim.wall_seconds}, {"insitu_seconds", sim.insitu_seconds}};
   for (const auto& package : sim.packages) save(*package, view);
   return view;
 }
@@ -60,6 +60,8 @@ void check_same_scene(const Checkpoint& checkpoint, const std::string& resolved,
 void restore(Simulation& sim, const Checkpoint& checkpoint) {
   sim.clock = {checkpoint.time, checkpoint.dt, checkpoint.step};
   sim.wall_seconds = checkpoint.scalar("wall_seconds");
+  if (checkpoint.scalars.contains("insitu_seconds"))  // not in checkpoints of earlier versions
+    sim.insitu_seconds = checkpoint.scalar("insitu_seconds");
   for (const auto& package : sim.packages) load(*package, checkpoint);
 }
 
