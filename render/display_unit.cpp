@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/si_prefixes.hpp"
+
 namespace ejecta {
 
 namespace {
@@ -19,8 +21,8 @@ DisplayUnit display_unit(double magnitude, const std::string& unit) {
   if (unit == "1") return {1, ""};
   const bool prefixable = unit.find('^') == std::string::npos && !unit.starts_with("kg");
   if (!prefixable || !(std::abs(magnitude) > 0) || !std::isfinite(magnitude)) return {1, with_superscripts(unit)};
-  for (const Prefix& p : prefixes)
-    if (std::abs(magnitude) >= p.factor * (1 - 1e-9)) return {p.factor, p.symbol + unit};
+  for (const SiPrefix& p : si_prefixes)
+    if (std::abs(magnitude) >= p.factor() * (1 - 1e-9)) return {p.factor(), std::string(p.symbol) + unit};
   return {1, unit};
 }
 

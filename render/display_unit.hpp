@@ -1,18 +1,9 @@
 #pragma once
 /// How numbers are shown to people: a prefix that suits the magnitude, round tick values, short labels.
-#include <array>
 #include <string>
 #include <vector>
 
 namespace ejecta {
-
-struct Prefix {
-  double factor;
-  const char* symbol;
-};
-/// Those that are shown, largest first: here, in the plots by gnuplot and in the pipelines.
-inline constexpr std::array<Prefix, 8> prefixes{
-    {{1e9, "G"}, {1e6, "M"}, {1e3, "k"}, {1, ""}, {1e-3, "m"}, {1e-6, "µ"}, {1e-9, "n"}, {1e-12, "p"}}};
 
 /// value in SI / `si` = value in `label`.
 struct DisplayUnit {

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/errors.hpp"
+#include "base/si_prefixes.hpp"
 #include "render/csv_table.hpp"
 #include "render/display_unit.hpp"
 #include "render/process.hpp"
@@ -27,9 +28,9 @@ std::string quoted(const std::string& text) {
 /// What `text` makes of the prefix that suits m, as an expression of gnuplot.
 template <class Text>
 std::string by_size(Text text) {
-  std::string choice = text(prefixes.back());
-  for (std::size_t k = prefixes.size() - 1; k-- > 0;)
-    choice = fmt::format("m >= {:e} ? {} : {}", prefixes[k].factor, text(prefixes[k]), choice);
+  std::string choice = text(si_prefixes.back());
+  for (std::size_t k = si_prefixes.size() - 1; k-- > 0;)
+    choice = fmt::format("m >= {:e} ? {} : {}", si_prefixes[k].factor(), text(si_prefixes[k]), choice);
   return choice;
 }
 
@@ -52,8 +53,8 @@ factor(m) = {}
 prefix(m) = {}
 )",
                      name, quoted(title.empty() ? subject : title + ": " + subject),
-                     by_size([](const Prefix& p) { return fmt::format("{:e}", p.factor); }),
-                     by_size([](const Prefix& p) { return fmt::format("'{}'", p.symbol); }));
+                     by_size([](const SiPrefix& p) { return fmt::format("{:e}", p.factor()); }),
+                     by_size([](const SiPrefix& p) { return fmt::format("'{}'", p.symbol); }));
 }
 
 /// Time in column 1, shown with a prefix that suits the last row.

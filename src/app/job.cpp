@@ -7,18 +7,16 @@
 #include "insitu/gl_probe.hpp"
 #include "insitu/pipelines.hpp"
 #include "model/package_kind.hpp"
-#include "particles/fields.hpp"
 #include "scene/scene_reader.hpp"
 
 namespace ejecta {
 
 namespace {
 
-/// Everything that pipelines can colour: the columns of particles, and what the other channels add.
+/// Everything that pipelines can colour: what packages show, and what frames add.
 std::map<std::string, std::string> colourable_fields() {
-  std::map<std::string, std::string> units{{"aspect", "1"}, {"target_mass", "kg"}, {"longest_semi_axis", "m"}};
-  for (const FieldInfo& field : field_catalogue())
-    if (field.role != Role::rate) units.emplace(field.name, field.unit);
+  std::map<std::string, std::string> units = package_fields();
+  units.insert({{"aspect", "1"}, {"target_mass", "kg"}, {"longest_semi_axis", "m"}});
   return units;
 }
 

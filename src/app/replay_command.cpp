@@ -20,7 +20,7 @@ int replay_in(const Scene& scene, const Materials& materials, const Checkpoint& 
   Simulation sim = set_up_simulation(scene, materials.list);
   restore(sim, checkpoint);
   std::filesystem::create_directories(out);
-  Frames<Dim> frames(sim, dynamic_cast<const Sph<Dim>&>(*sim.packages.front()), out, gl_works());
+  Frames<Dim> frames(sim, package_of<Sph<Dim>>(sim), out, gl_works());
   frames.observe(sim, true);
   spdlog::info("{} images in {}", frames.images(), (out / "images").string());
   return 0;

@@ -85,7 +85,7 @@ int run_in(const Job& job) {
     check_same_scene(*checkpoint, job.resolved, job.scene.file);
   }
   Simulation sim = set_up_simulation(job.scene, job.materials.list);
-  const auto& sph = dynamic_cast<const Sph<Dim>&>(*sim.packages.front());
+  const auto& sph = package_of<Sph<Dim>>(sim);
   if (checkpoint) restore(sim, *checkpoint);
   prepare_folder(job);
   if (job.scene.insitu.enabled && !job.catalyst)

@@ -9,8 +9,8 @@
 #include "base/data_folder.hpp"
 #include "base/errors.hpp"
 #include "base/json.hpp"
+#include "base/si_prefixes.hpp"
 #include "insitu/insitu_log.hpp"
-#include "render/display_unit.hpp"
 
 namespace ejecta {
 namespace {
@@ -97,10 +97,7 @@ std::string frame_json(const PipelineSettings& s, std::span<const Channel> chann
       << ",\"time_end\":" << to_json(s.time_end) << ",\"particle_radius\":" << to_json(s.particle_radius)
       << ",\"radius_per_smoothing_length\":" << to_json(s.radius_per_smoothing_length)
       << ",\"nodes_per_h\":" << to_json(s.nodes_per_h) << ",\"kernel_support\":" << to_json(s.kernel_support)
-      << ",\"fragment_target\":" << to_json(s.fragment_target) << ",\"prefixes\":"
-      << json_list(
-             prefixes,
-             [](const Prefix& p) { return '[' + to_json(p.factor) + ',' + to_json(std::string_view(p.symbol)) + ']'; })
+      << ",\"fragment_target\":" << to_json(s.fragment_target) << ",\"prefixes\":" << json_list(si_prefixes)
       << ",\"slice_fields\":" << json_list(s.slice_fields) << ",\"fields\":{";
   const char* separator = "";
   for (const auto& [name, unit] : units_of(channels)) {

@@ -7,6 +7,7 @@
 #include <functional>
 #include <numbers>
 
+#include "scene/names.hpp"
 #include "scene/units.hpp"
 
 namespace ejecta {
@@ -29,21 +30,28 @@ const std::array<Named<Strength>, 6> strength_models{{{"von_mises", VonMises{}},
                                                       {"collins", Collins{}},
                                                       {"steinberg_guinan", SteinbergGuinan{}},
                                                       {"johnson_cook", JohnsonCook{}}}};
-const std::vector<std::string> damage_models{"none", "grady_kipp", "grady_kipp_tensor"};
-const std::vector<std::string> porosity_models{"none", "quadratic", "two_power"};
 
 template <std::size_t N, class Model>
-std::vector<std::string> words(const std::array<Named<Model>, N>& models, bool with_none) {
+std::vector<std::string> words(const std::array<Named<Model>, N>& models) {
   std::vector<std::string> names;
-  if (with_none) names.emplace_back("none");
   for (const auto& model : models) names.emplace_back(model.name);
   return names;
 }
+template <class Enum>
+std::vector<std::string> words() {
+  const auto names = enum_names(Enum{});
+  return {names.begin(), names.end()};
+}
+std::vector<std::string> with_none(std::vector<std::string> words) {
+  words.insert(words.begin(), "none");
+  return words;
+}
 
 template <std::size_t N, class Model>
-void start(Model& model, const std::string& name, const std::array<Named<Model>, N>& models) {
+std::string word_of(const std::optional<Model>& model, const std::array<Named<Model>, N>& models) {
   for (const auto& candidate : models)
-    if (candidate.name == name) model = candidate.initial;
+    if (model && model->index() == candidate.initial.index()) return std::string(candidate.name);
+  return "none";
 }
 
 using Report = std::function<void(const std::string& path, const std::string& message)>;
@@ -244,78 +252,77 @@ void check_temperature(const MaterialSettings& s, const Report& report) {
             report("eos.melt_temperature", "missing: the strength depends on the temperature");
         }
       },
-      s.eos, s.strength);
+      *s.eos, *s.strength);
 }
 
 }  // namespace
 
 void choose_models(MaterialSettings& settings, Document& document, Problems& problems) {
-  const auto choose = [&](const std::string& section, std::string& model, const std::vector<std::string>& known) {
+  // The place of the model's word among the known ones; nothing where the section, which may miss, is not there.
+  const auto choose = [&](const std::string& section, const std::vector<std::string>& known,
+                          bool may_miss = true) -> std::optional<std::size_t> {
     const std::string path = section + ".model";
-    const bool written = document.tables.contains(section) || !document.children(section).empty();
-    if (!written && !model.empty()) return;
+    if (may_miss && !document.holds(section)) return std::nullopt;
     const auto item = document.items.find(path);
     const auto* name = item == document.items.end() ? nullptr : std::get_if<std::string>(&item->second.literal.value);
-    if (name && std::find(known.begin(), known.end(), *name) != known.end()) {
-      model = *name;
-      return;
-    }
+    const auto found = name ? std::ranges::find(known, *name) : known.end();
+    if (found != known.end()) return static_cast<std::size_t>(found - known.begin());
     problems.add(document.origin(path), path,
                  fmt::format("expected one of {}, got {}", fmt::join(known, ", "),
                              item == document.items.end() ? "nothing" : to_text(item->second.literal)));
     std::erase_if(document.items, [&](const auto& entry) { return entry.first.starts_with(section + "."); });
+    return std::nullopt;
   };
-  choose("eos", settings.eos_model, words(eos_models, false));
-  choose("strength", settings.strength_model, words(strength_models, true));
-  choose("damage", settings.damage_model, damage_models);
-  choose("porosity", settings.porosity_model, porosity_models);
-  start(settings.eos, settings.eos_model, eos_models);
-  start(settings.strength, settings.strength_model, strength_models);
-  settings.has_elastic = document.tables.contains("elastic") || !document.children("elastic").empty();
+  if (const auto k = choose("eos", words(eos_models), false)) settings.eos = eos_models[*k].initial;
+  if (document.holds("elastic")) settings.elastic.emplace();
+  if (const auto k = choose("strength", with_none(words(strength_models))); k && *k > 0)
+    settings.strength = strength_models[*k - 1].initial;
+  settings.damage_model = static_cast<DamageModel>(choose("damage", words<DamageModel>()).value_or(0));
+  settings.porosity_model = static_cast<PorosityModel>(choose("porosity", words<PorosityModel>()).value_or(0));
 }
 
 void describe(Describer& d, MaterialSettings& s) {
-  const auto model = [&](std::string& name, const std::vector<std::string>& known, std::string doc) {
-    d.word("model", name, known, std::move(doc)).required = name != "none";
+  const auto section = [&](std::string name, std::string_view what, const std::string& model,
+                           const std::vector<std::string>& known, std::string doc) {
+    d.section(std::move(name), fmt::format("{}: {}", what, model));
+    d.chosen("model", model, known, std::move(doc)).required = model != "none";
   };
-  d.section("eos", fmt::format("equation of state: {}", s.eos_model));
-  model(s.eos_model, words(eos_models, false), "the constants depend on it");
-  if (!s.eos_model.empty()) std::visit([&](auto& eos) { describe(d, eos); }, s.eos);
-  if (s.has_elastic) {
+  section("eos", "equation of state", word_of(s.eos, eos_models), words(eos_models), "the constants depend on it");
+  if (s.eos) std::visit([&](auto& eos) { describe(d, eos); }, *s.eos);
+  if (s.elastic) {
     d.section("elastic", "moduli of the solid; without this section the material is a fluid");
-    constant(d, "shear_modulus", s.elastic.shear_modulus, "Pa", positive, "without pores and damage");
-    constant(d, "bulk_modulus", s.elastic.bulk_modulus, "Pa", positive, "without pores and damage");
+    constant(d, "shear_modulus", s.elastic->shear_modulus, "Pa", positive, "without pores and damage");
+    constant(d, "bulk_modulus", s.elastic->bulk_modulus, "Pa", positive, "without pores and damage");
   }
-  d.section("strength", fmt::format("limit of the deviatoric stress: {}", s.strength_model));
-  model(s.strength_model, words(strength_models, true), "none: elastic without limit");
-  if (s.strength_model != "none") {
-    std::visit([&](auto& strength) { describe(d, strength); }, s.strength);
-    if (!softens_by_temperature(s.strength))
+  section("strength", "limit of the deviatoric stress", word_of(s.strength, strength_models),
+          with_none(words(strength_models)), "none: elastic without limit");
+  if (s.strength) {
+    std::visit([&](auto& strength) { describe(d, strength); }, *s.strength);
+    if (!softens_by_temperature(*s.strength))
       d.number("melt_energy", s.melt_energy, "J/kg", positive, "at which no strength is left; else it never softens");
   }
-  d.section("damage", fmt::format("brittle fracture: {}", s.damage_model));
-  model(s.damage_model, damage_models, "none: never breaks");
-  if (s.damage_model != "none") describe(d, s.damage, s.damage_model == "grady_kipp_tensor");
-  d.section("porosity", fmt::format("pores below the resolution (P-alpha): {}", s.porosity_model));
-  model(s.porosity_model, porosity_models, "form of the crush curve; none: no pores");
-  if (s.porosity_model != "none") describe(d, s.porosity, s.porosity_model == "two_power");
+  section("damage", "brittle fracture", std::string(name_of(s.damage_model)), words<DamageModel>(),
+          "none: never breaks");
+  if (s.damage_model != DamageModel::none) describe(d, s.damage, s.damage_model == DamageModel::grady_kipp_tensor);
+  section("porosity", "pores below the resolution (P-alpha)", std::string(name_of(s.porosity_model)),
+          words<PorosityModel>(), "form of the crush curve; none: no pores");
+  if (s.porosity_model != PorosityModel::none) describe(d, s.porosity, s.porosity_model == PorosityModel::two_power);
 }
 
 void check_settings(const MaterialSettings& s, const Document& document, Problems& problems) {
   const auto report = [&](const std::string& path, const std::string& message) {
     if (!problems.has(path)) problems.add(document.origin(path), path, message);
   };
-  std::visit([&](const auto& eos) { check(eos, report); }, s.eos);
-  if (s.strength_model != "none") {
-    std::visit([&](const auto& strength) { check(strength, report); }, s.strength);
-    check_temperature(s, report);
-  }
-  const bool gas = !s.eos_model.empty() && is_gas(s.eos);
-  if (gas && s.has_elastic) report("elastic", "a gas has no moduli");
-  if (gas && s.porosity_model != "none") report("porosity.model", "a gas has no pores");
-  if (!s.has_elastic && s.strength_model != "none") report("strength.model", "needs section [elastic]");
-  if (!s.has_elastic && s.damage_model != "none") report("damage.model", "needs section [elastic]");
-  if (s.damage_model == "grady_kipp_tensor" && s.strength_model == "none")
+  if (s.eos) std::visit([&](const auto& eos) { check(eos, report); }, *s.eos);
+  if (s.strength) std::visit([&](const auto& strength) { check(strength, report); }, *s.strength);
+  if (s.eos && s.strength) check_temperature(s, report);
+  const bool gas = s.eos && is_gas(*s.eos);
+  const bool porous = s.porosity_model != PorosityModel::none, breaks = s.damage_model != DamageModel::none;
+  if (gas && s.elastic) report("elastic", "a gas has no moduli");
+  if (gas && porous) report("porosity.model", "a gas has no pores");
+  if (!s.elastic && s.strength) report("strength.model", "needs section [elastic]");
+  if (!s.elastic && breaks) report("damage.model", "needs section [elastic]");
+  if (s.damage_model == DamageModel::grady_kipp_tensor && !s.strength)
     report("damage.model",
            "grady_kipp_tensor needs section [strength]: cracks with a direction cut off a deviatoric "
            "stress, and nothing would bound the one that is left");
@@ -325,18 +332,18 @@ void check_settings(const MaterialSettings& s, const Document& document, Problem
 Material make_material(const std::string& name, const MaterialSettings& s) {
   Material material;
   material.name = name;
-  material.eos = s.eos;
-  if (s.has_elastic) material.elastic = s.elastic;
-  if (s.strength_model != "none") material.strength = s.strength;
+  material.eos = s.eos.value();
+  material.elastic = s.elastic;
+  material.strength = s.strength;
   material.melt_energy = s.melt_energy;
-  if (s.damage_model != "none") {
+  if (s.damage_model != DamageModel::none) {
     material.damage = s.damage;
-    material.damage->tensor = s.damage_model == "grady_kipp_tensor";
+    material.damage->tensor = s.damage_model == DamageModel::grady_kipp_tensor;
   }
-  if (s.porosity_model == "none") return material;
+  if (s.porosity_model == PorosityModel::none) return material;
   const PorositySettings& p = s.porosity;
   const CrushCurve curve =
-      s.porosity_model == "quadratic"
+      s.porosity_model == PorosityModel::quadratic
           ? CrushCurve::quadratic(p.initial_distension, p.elastic_pressure, p.solid_pressure)
           : CrushCurve::two_power(p.initial_distension, p.reference_distension, p.transition_distension,
                                   p.elastic_pressure, p.transition_pressure, p.solid_pressure, *p.n1, *p.n2);
@@ -348,14 +355,11 @@ std::vector<MaterialSettings> every_model() {
   std::vector<MaterialSettings> all;
   for (std::size_t k = 0; k < strength_models.size(); ++k) {
     MaterialSettings s;
-    const auto& [eos_name, eos] = eos_models[k % eos_models.size()];
-    s.eos_model = eos_name;
-    s.eos = eos;
-    s.has_elastic = true;
-    s.strength_model = strength_models[k].name;
+    s.eos = eos_models[k % eos_models.size()].initial;
+    s.elastic.emplace();
     s.strength = strength_models[k].initial;
-    s.damage_model = damage_models[1 + k % 2];
-    s.porosity_model = porosity_models[1 + k % 2];
+    s.damage_model = static_cast<DamageModel>(1 + k % 2);
+    s.porosity_model = static_cast<PorosityModel>(1 + k % 2);
     all.push_back(s);
   }
   return all;

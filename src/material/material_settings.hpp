@@ -18,6 +18,17 @@ constexpr auto enum_names(CrackStrain) {
 
 constexpr auto enum_names(CrackLaw) { return std::to_array<std::string_view>({"grady_kipp", "benz_asphaug"}); }
 
+enum class DamageModel { none, grady_kipp, grady_kipp_tensor };
+constexpr auto enum_names(DamageModel) {
+  return std::to_array<std::string_view>({"none", "grady_kipp", "grady_kipp_tensor"});
+}
+
+/// Forms of the crush curve.
+enum class PorosityModel { none, quadratic, two_power };
+constexpr auto enum_names(PorosityModel) {
+  return std::to_array<std::string_view>({"none", "quadratic", "two_power"});
+}
+
 struct PorositySettings {
   double initial_distension = unset;     ///< alpha0 = grain density / bulk density
   double elastic_pressure = unset;       ///< P_e [Pa]
@@ -32,13 +43,13 @@ struct PorositySettings {
 };
 
 struct MaterialSettings {
-  std::string eos_model, strength_model = "none", damage_model = "none", porosity_model = "none";
-  bool has_elastic = false;
-  Eos eos;
-  Elastic elastic{};
-  Strength strength;
+  std::optional<Eos> eos;  ///< nothing: not given, which has been reported
+  std::optional<Elastic> elastic;
+  std::optional<Strength> strength;
   double melt_energy = unset;  ///< J/kg; not set: never softens
+  DamageModel damage_model = DamageModel::none;
   GradyKipp damage{};
+  PorosityModel porosity_model = PorosityModel::none;
   PorositySettings porosity;
 };
 

@@ -1,7 +1,9 @@
 #pragma once
 /// How packages come into a run.
 #include <functional>
+#include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "material/material.hpp"
@@ -15,6 +17,7 @@ struct PackageKind {
   SceneSection section;
   /// Throws InputError if the scene asks for what cannot be, SimulationError if the first evaluation fails.
   std::function<std::unique_ptr<Package>(const Scene&, const std::vector<Material>&)> set_up;
+  std::map<std::string, std::string> fields{};  ///< that its channels may show: name -> SI unit
 };
 
 /// All there are, in the order in which they advance. This is the one place that knows them: app/packages.cpp.
@@ -26,6 +29,13 @@ inline std::vector<SceneSection> package_sections() {
   for (const PackageKind& kind : package_kinds())
     if (!kind.section.name.empty()) sections.push_back(kind.section);
   return sections;
+}
+
+/// What their channels may show: name -> SI unit.
+inline std::map<std::string, std::string> package_fields() {
+  std::map<std::string, std::string> fields;
+  for (const PackageKind& kind : package_kinds()) fields.insert(kind.fields.begin(), kind.fields.end());
+  return fields;
 }
 
 }  // namespace ejecta

@@ -26,15 +26,6 @@ bool may_change(const std::string& key) {
   return key.starts_with("insitu.") || (key.starts_with("output.") && key != "output.peaks");
 }
 
-/// bodies[1].velocity -> bodies.projectile.velocity
-std::string with_name_of_body(const std::string& key, const Document& scene) {
-  if (!key.starts_with("bodies[")) return key;
-  const std::size_t end = key.find(']') + 1;
-  const auto name = scene.items.find(key.substr(0, end) + ".name");
-  return name == scene.items.end() ? key
-                                   : "bodies." + std::get<std::string>(name->second.literal.value) + key.substr(end);
-}
-
 }  // namespace
 
 CheckpointView checkpoint_view(const Simulation& sim, const std::string& resolved) {
@@ -43,7 +34,7 @@ CheckpointView checkpoint_view(const Simulation& sim, const std::string& resolve
   view.dt = sim.clock.dt;
   view.step = sim.clock.step;
   view.scene = resolved;
-  view.scalars = {{"wall_seconds", sim.wall_seconds}};
+  view.scalars = {{"wall_seconds", sim.wall_seconds}, {"insitu_seconds", sim.insitu_seconds}};
   for (const auto& package : sim.packages) save(*package, view);
   return view;
 }
@@ -61,14 +52,16 @@ void check_same_scene(const Checkpoint& checkpoint, const std::string& resolved,
   std::vector<std::string> problems;
   for (const std::string& key : keys)
     if (const std::string old = value(then, key), given = value(now, key); old != given && !may_change(key))
-      problems.push_back(fmt::format("{}: {}: expected {} as in the checkpoint {}, got {}", file,
-                                     with_name_of_body(key, now), old, checkpoint.file.filename().string(), given));
+      problems.push_back(fmt::format("{}: {}: expected {} as in the checkpoint {}, got {}", file, with_names(now, key),
+                                     old, checkpoint.file.filename().string(), given));
   if (!problems.empty()) throw InputError(problems);
 }
 
 void restore(Simulation& sim, const Checkpoint& checkpoint) {
   sim.clock = {checkpoint.time, checkpoint.dt, checkpoint.step};
   sim.wall_seconds = checkpoint.scalar("wall_seconds");
+  if (checkpoint.scalars.contains("insitu_seconds"))  // not in checkpoints of earlier versions
+    sim.insitu_seconds = checkpoint.scalar("insitu_seconds");
   for (const auto& package : sim.packages) load(*package, checkpoint);
 }
 

@@ -2,6 +2,8 @@
 
 #include <spdlog/spdlog.h>
 
+#include <chrono>
+
 #include "base/errors.hpp"
 #include "insitu/pipelines.hpp"
 #include "observe/field_styles.hpp"
@@ -38,13 +40,6 @@ PipelineSettings pipeline_settings(const Sph<Dim>& sph, const std::filesystem::p
 
 }  // namespace
 
-double insitu_seconds(const StageTimers& timers) {
-  double total = 0;
-  for (const StageTimers::Entry& e : timers.entries())
-    if (e.name.starts_with("in situ")) total += e.seconds;
-  return total;
-}
-
 template <int Dim>
 Frames<Dim>::Frames(const Simulation& sim, const Sph<Dim>& sph, std::filesystem::path folder, bool catalyst)
     : sph_(sph),
@@ -75,21 +70,17 @@ template <int Dim>
 void Frames<Dim>::observe(Simulation& sim, bool last) {
   if (!schedule_.take(sim.clock.step, sim.clock.time, last)) return;
   ++drawn_;
+  const auto start = std::chrono::steady_clock::now();
   if (sim.scene.fragments.enabled) sim.timers.time("in situ: fragment search", [&] { find_fragments(); });
-  if (sim.scene.insitu.enabled) {
-    if (sim.scene.insitu.column_density) sim.timers.time("in situ: column density", [&] { draw_column_density(); });
-    if (bridge_) {
-      draw_with_catalyst(sim);
-    } else {
-      sim.timers.time("in situ: images", [&] { draw_without_gl(); });
-    }
-    if (const auto share = governor_.excess(insitu_seconds(sim.timers), sim.wall_seconds)) {
-      schedule_.thin_out();
-      warn(
-          fmt::format("in-situ work takes {:.0f} % of the wall time (insitu.max_share = {:.0f} %): time between frames "
-                      "doubled",
-                      100 * *share, 100 * sim.scene.insitu.max_share));
-    }
+  if (sim.scene.insitu.enabled) draw(sim);
+  sim.insitu_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const auto share = governor_.excess(sim.insitu_seconds, sim.wall_seconds);
+  if (share && sim.scene.insitu.enabled) {
+    schedule_.thin_out();
+    warn(
+        fmt::format("in-situ work takes {:.0f} % of the wall time (insitu.max_share = {:.0f} %): time between frames "
+                    "doubled",
+                    100 * *share, 100 * sim.scene.insitu.max_share));
   }
   compaction_.collect(sph_.particles, sph_.materials);
   if (last) compaction_.write(folder_, sph_.materials);
@@ -98,6 +89,15 @@ void Frames<Dim>::observe(Simulation& sim, bool last) {
 void FrameResults::warn(std::string text) {
   spdlog::warn("{}", text);
   warnings_.push_back(std::move(text));
+}
+
+template <int Dim>
+void Frames<Dim>::draw(Simulation& sim) {
+  if (sim.scene.insitu.column_density) sim.timers.time("in situ: column density", [&] { draw_column_density(); });
+  if (bridge_)
+    draw_with_catalyst(sim);
+  else
+    sim.timers.time("in situ: images", [&] { draw_without_gl(); });
 }
 
 template <int Dim>

@@ -20,9 +20,6 @@
 
 namespace ejecta {
 
-/// Wall time booked for in-situ work [s].
-double insitu_seconds(const StageTimers& timers);
-
 /// What frames leave for others to show.
 class FrameResults : public Observer {
  public:
@@ -55,6 +52,7 @@ class Frames final : public FrameResults {
   void resume();
 
  private:
+  void draw(Simulation& sim);
   void find_fragments();
   void draw_column_density();
   std::vector<Channel> make_channels(Simulation& sim);

@@ -11,6 +11,7 @@ Status::Status(const Simulation& sim, std::filesystem::path folder, const FrameR
       context_(std::move(context)),
       first_time_(sim.clock.time),
       first_wall_(sim.wall_seconds),
+      first_total_(sim.wall_seconds + sim.insitu_seconds),
       first_step_(sim.clock.step) {
   status_.scene = heading(sim.scene);
   status_.time_end = sim.scene.time_end;
@@ -24,12 +25,12 @@ void Status::gather(const Simulation& sim) {
   status_.time = sim.clock.time;
   status_.dt = sim.clock.dt;
   status_.limited_by = std::string(sim.vote.reason);
-  status_.wall_s = sim.wall_seconds + insitu_seconds(sim.timers);
+  status_.wall_s = sim.wall_seconds + sim.insitu_seconds;
   if (const double wall = sim.wall_seconds - first_wall_; wall > 0)
     status_.particle_steps_per_s =
         static_cast<double>(status_.particles) * static_cast<double>(sim.clock.step - first_step_) / wall;
   if (const double done = sim.clock.time - first_time_; done > 0)
-    status_.eta_s = (status_.wall_s - first_wall_) * (status_.time_end - sim.clock.time) / done;
+    status_.eta_s = (status_.wall_s - first_total_) * (status_.time_end - sim.clock.time) / done;
   for (const Quantity& q : quantities(sim, frames_, context_)) {
     if (!q.plotted) continue;
     const auto* number = std::get_if<double>(&q.value);

@@ -26,7 +26,7 @@ class Status final : public Observer {
   Monitor monitor_;
   MonitorStatus status_;
   FragmentContext context_;
-  double first_time_, first_wall_;
+  double first_time_, first_wall_, first_total_;
   std::int64_t first_step_;
 };
 

@@ -62,8 +62,7 @@ Summary summarise(const Simulation& sim, const Sph<Dim>& sph, const FrameResults
   s.particles = static_cast<std::int64_t>(sph.particles.size());
   s.steps = sim.clock.step;
   s.time_s = sim.clock.time;
-  const double insitu = insitu_seconds(sim.timers);
-  s.wall_s = sim.wall_seconds + insitu;
+  s.wall_s = sim.wall_seconds + sim.insitu_seconds;
   if (sim.wall_seconds > 0) s.particle_steps_per_s = n * steps / sim.wall_seconds;
   s.neighbours_mean = mean_neighbours(sph);
   if (s.particle_steps_per_s) s.pair_interactions_per_s = *s.particle_steps_per_s * *s.neighbours_mean;
@@ -82,7 +81,7 @@ Summary summarise(const Simulation& sim, const Sph<Dim>& sph, const FrameResults
     s.shape_largest_aspect = sph.shape_report.largest_aspect;
   }
   s.images = frames.images();
-  s.insitu_share = s.wall_s > 0 ? insitu / s.wall_s : 0;
+  s.insitu_share = s.wall_s > 0 ? sim.insitu_seconds / s.wall_s : 0;
   s.insitu_bytes_written = folder_bytes(folder / "images");
   s.full_dump_bytes_avoided = static_cast<std::int64_t>(dump_bytes(sim) * frames.drawn());
   s.bodies = summarise_bodies(sph, frames, context);

@@ -9,12 +9,6 @@ namespace ejecta {
 
 namespace {
 
-/// Largest extent of a body [m].
-double extent(const Body& body, int dim) {
-  if (is_set(body.size[0])) return *std::max_element(body.size.begin(), body.size.begin() + dim);
-  return std::max(2 * body.radius, is_set(body.length) ? body.length : 0.0);
-}
-
 double speed(const Body& body) { return std::hypot(body.velocity[0], body.velocity[1], body.velocity[2]); }
 
 }  // namespace
@@ -25,7 +19,7 @@ View choose_view(const Scene& scene) {
   View view{scene.insitu.view_center, scene.insitu.view_size};
   for (std::size_t a = 0; a < 3; ++a)
     if (!is_set(view.center[a])) view.center[a] = calmest.center[a];
-  if (!is_set(view.size)) view.size = 1.6 * extent(calmest, scene.dimension);
+  if (!is_set(view.size)) view.size = 1.6 * std::ranges::max(widths(calmest, scene.dimension));
   return view;
 }
 

@@ -8,6 +8,7 @@
 
 #include "output/atomic_file.hpp"
 #include "base/json.hpp"
+#include "base/si_prefixes.hpp"
 
 namespace ejecta {
 
@@ -118,6 +119,7 @@ std::string monitor_json(const MonitorStatus& s, std::int64_t updated) {
   add("fragment_target", to_json(s.fragment_target));
   add("smallest_fragment", to_json(s.smallest_fragment));
   add("fragments", distribution_json(s.fragment_masses));
+  add("prefixes", json_list(si_prefixes));
   return text + "\n}\n";
 }
 

@@ -14,16 +14,6 @@ namespace ejecta {
 
 namespace {
 
-/// The sizes a shape has, in the order x, y, z of its own axes.
-struct ShapeNeeds {
-  std::string_view shape;
-  int dimension;
-  bool radius, size, length;
-};
-constexpr std::array shapes{ShapeNeeds{"sphere", 3, true, false, false}, ShapeNeeds{"box", 3, false, true, false},
-                            ShapeNeeds{"cylinder", 3, true, false, true}, ShapeNeeds{"disc", 2, true, false, false},
-                            ShapeNeeds{"rectangle", 2, false, true, false}};
-
 /// Reports against one document, and stays silent about a value that has already been refused.
 struct Report {
   const Document& document;
@@ -33,33 +23,36 @@ struct Report {
   }
 };
 
+/// "sphere, box or cylinder"
+std::string shapes_in(int dimension) {
+  std::vector<std::string_view> words;
+  for (const ShapeInfo& shape : body_shapes)
+    if (shape.dimension == dimension) words.push_back(shape.word);
+  return fmt::format("{} or {}", fmt::join(words.begin(), words.end() - 1, ", "), words.back());
+}
+
 void check_body(const Scene& scene, const Body& body, const std::string& path, const Report& report) {
-  const auto needs = std::find_if(shapes.begin(), shapes.end(), [&](const auto& s) { return s.shape == body.shape; });
-  if (needs->dimension != scene.dimension) {
-    report(path + ".shape", fmt::format("expected {} in {}D, got \"{}\"",
-                                        scene.dimension == 2 ? "disc or rectangle" : "sphere, box or cylinder",
-                                        scene.dimension, body.shape));
+  const ShapeInfo& shape = info(body.shape);
+  if (shape.dimension != scene.dimension) {
+    report(path + ".shape",
+           fmt::format("expected {} in {}D, got \"{}\"", shapes_in(scene.dimension), scene.dimension, shape.word));
     return;
   }
   const auto check_size = [&](const char* key, bool needed, bool given) {
-    if (needed && !given) report(path + "." + key, fmt::format("missing: a {} needs it", body.shape));
-    if (!needed && given) report(path + "." + key, fmt::format("a {} has none", body.shape));
+    if (needed && !given) report(path + "." + key, fmt::format("missing: a {} needs it", shape.word));
+    if (!needed && given) report(path + "." + key, fmt::format("a {} has none", shape.word));
   };
-  check_size("radius", needs->radius, is_set(body.radius));
-  check_size("length", needs->length, is_set(body.length));
-  check_size("size", needs->size, is_set(body.size[0]));
+  check_size("radius", shape.radius, is_set(body.radius));
+  check_size("length", shape.length, is_set(body.length));
+  check_size("size", shape.size, is_set(body.size[0]));
+  if (shape.size && is_set(body.size[0]) &&
+      !std::all_of(body.size.begin(), body.size.begin() + scene.dimension, [](double edge) { return edge > 0; }))
+    report(path + ".size", fmt::format("expected {} lengths > 0", scene.dimension));
   double narrowest = std::numeric_limits<double>::infinity();
-  if (needs->size && is_set(body.size[0])) {
-    const auto end = body.size.begin() + scene.dimension;
-    if (!std::all_of(body.size.begin(), end, [](double edge) { return edge > 0; }))
-      report(path + ".size", fmt::format("expected {} lengths > 0", scene.dimension));
-    else
-      narrowest = *std::min_element(body.size.begin(), end);
-  }
-  if (needs->radius && is_set(body.radius)) narrowest = 2 * body.radius;
-  if (needs->length && is_set(body.length)) narrowest = std::min(narrowest, body.length);
-  if (body.inner_radius > 0 && !needs->radius)
-    report(path + ".inner_radius", fmt::format("a {} has none", body.shape));
+  for (const double width : widths(body, scene.dimension))
+    if (width < narrowest) narrowest = width;
+  if (body.inner_radius > 0 && !shape.radius)
+    report(path + ".inner_radius", fmt::format("a {} has none", shape.word));
   else if (is_set(body.radius) && body.inner_radius >= body.radius)
     report(path + ".inner_radius",
            fmt::format("expected less than the radius {}, got {}", format_quantity(body.radius, "m"),
@@ -68,7 +61,7 @@ void check_body(const Scene& scene, const Body& body, const std::string& path, c
   // A body made to measure may be thinner than the spacing by rounding.
   const double spacing = scene.spacing * body.spacing_factor;
   if (is_set(spacing) && narrowest < spacing * (1 - 1e-9))
-    report(path + (needs->size ? ".size" : ".radius"),
+    report(path + (shape.size ? ".size" : ".radius"),
            fmt::format("expected at least one particle across, got {} at a spacing of {}",
                        format_quantity(narrowest, "m"), format_quantity(spacing, "m")));
   if (scene.dimension == 2 && (body.velocity[2] != 0 || body.center[2] != 0))

@@ -6,11 +6,23 @@
 
 namespace ejecta {
 
+namespace {
+
+void describe(Describer& d, Profile& p) {
+  d.texts("displacement", p.displacement, "m; moves particles from their lattice places, masses stay");
+  d.texts("velocity", p.velocity, "m/s");
+  d.text("density", p.density, "kg/m^3");
+  d.text("pressure", p.pressure, "Pa; of a gas");
+  d.text("specific_energy", p.specific_energy, "J/kg");
+  d.texts("deviatoric_stress", p.deviatoric_stress, "Pa; xx, yy, xy, in 3D also xz, yz");
+}
+
+}  // namespace
+
 void describe(Describer& d, Body& b) {
   d.text("name", b.name, "how messages, --set and the images call the body").required = true;
   d.text("material", b.material, "name of materials/<material>.toml").required = true;
-  d.word("shape", b.shape, {"sphere", "box", "cylinder", "disc", "rectangle"},
-         "disc and rectangle in 2D, the others in 3D");
+  d.choice("shape", b.shape, "disc and rectangle in 2D, the others in 3D");
   d.triple("center", b.center, "m", "centre of the shape");
   d.number("radius", b.radius, "m", positive, "of a sphere, disc or cylinder");
   d.number("inner_radius", b.inner_radius, "m", non_negative, "of the hole in a sphere, disc or cylinder");
@@ -26,15 +38,10 @@ void describe(Describer& d, Body& b) {
          "name of a body it is one piece with; \"none\"; \"auto\": a driven body holds those of its material");
   d.flag("driven", b.driven, "keeps its velocity whatever pulls at it, and never breaks: a grip or a piston");
   d.number("jitter", b.jitter, "1", between(0, 1), "random displacement along each axis, up to this many spacings");
-}
-
-void describe(Describer& d, Profile& p) {
-  d.texts("displacement", p.displacement, "m; moves particles from their lattice places, masses stay");
-  d.texts("velocity", p.velocity, "m/s");
-  d.text("density", p.density, "kg/m^3");
-  d.text("pressure", p.pressure, "Pa; of a gas");
-  d.text("specific_energy", p.specific_energy, "J/kg");
-  d.texts("deviatoric_stress", p.deviatoric_stress, "Pa; xx, yy, xy, in 3D also xz, yz");
+  d.origin(b.origin);
+  d.section("profile",
+            "formulas of x, y, z, r (from its centre) and dx (spacing) in SI, in place of its uniform values");
+  describe(d, b.profile);
 }
 
 void describe(Describer& d, Numerics& n) {
@@ -107,6 +114,10 @@ void describe(Describer& d, InSitu& i) {
   d.integer("image_height", i.image_height, between(64, 8192), "pixels");
   d.triple("view_center", i.view_center, "m", "middle of the images; else the centre of the bodies at rest");
   d.number("view_size", i.view_size, "m", positive, "visible width; else 1.6 times the extent of the slowest body");
+  d.map("ranges", i.ranges, "<field>", "field name = fixed colour range",
+        [&](const std::string& field, ColourRange& r) {
+          d.range(field, r, "same from the first frame to the last").required = true;
+        });
 }
 
 void describe(Describer& d, FragmentSettings& f) {
@@ -144,13 +155,7 @@ void describe(Describer& d, Scene& s, const std::vector<SceneSection>& sections)
   d.section("time", "how long");
   d.number("end", s.time_end, "s", positive, "simulated time at which the run ends").required = true;
   d.integer("max_steps", s.max_steps, non_negative, "ends the run earlier; 0: no limit").zero_is_unset = true;
-  for (std::size_t k = 0; k < s.bodies.size(); ++k) {
-    d.section(fmt::format("bodies[{}]", k), "one body, filled with particles at set-up");
-    describe(d, s.bodies[k]);
-    d.section(fmt::format("bodies[{}].profile", k),
-              "formulas of x, y, z, r (from its centre) and dx (spacing) in SI, in place of its uniform values");
-    describe(d, s.bodies[k].profile);
-  }
+  d.list("bodies", s.bodies, true, "one body, filled with particles at set-up", [&](Body& body) { describe(d, body); });
   d.section("numerics", "how the equations are solved");
   describe(d, s.numerics);
   d.section("boundary", "faces of a box around everything");
@@ -159,14 +164,9 @@ void describe(Describer& d, Scene& s, const std::vector<SceneSection>& sections)
   describe(d, s.contact);
   for (const auto& [name, settings] : s.sections) {
     const auto about = std::ranges::find(sections, name, &SceneSection::name);
-    d.section(name, about == sections.end() ? "" : about->doc);
-    settings->describe(d);
+    d.section(name, about == sections.end() ? "" : about->doc, [&] { settings->describe(d); });
   }
-  d.section("insitu", "pictures while the run goes on");
-  describe(d, s.insitu);
-  d.section("insitu.ranges", "field name = fixed colour range");
-  for (auto& [field, range] : s.insitu.ranges)
-    d.range(field, range, "same from the first frame to the last").required = true;
+  d.section("insitu", "pictures while the run goes on", [&] { describe(d, s.insitu); });
   d.section("fragments", "connected pieces and their masses");
   describe(d, s.fragments);
   d.section("output", "files");

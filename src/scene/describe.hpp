@@ -12,8 +12,8 @@ void describe(Describer& d, InSitu& insitu);
 void describe(Describer& d, FragmentSettings& fragments);
 void describe(Describer& d, OutputSettings& output);
 
-/// All sections of a scene but [materials]. The scene must already have its bodies, its colour ranges (with any values)
-/// and what it has of other sections; `sections` tells what they are for.
+/// All sections of a scene but [materials]. The scene must already have what it has of other sections; `sections` tells
+/// what they are for.
 void describe(Describer& d, Scene& scene, const std::vector<SceneSection>& sections = {});
 
 }  // namespace ejecta

@@ -18,11 +18,39 @@ std::string to_text(const Limits& limits, std::string_view si_unit) {
   return "";
 }
 
-void Describer::section(std::string name, std::string doc) { sections_.push_back({std::move(name), std::move(doc)}); }
+Describer Describer::of_all_there_may_be() {
+  Describer describer;
+  describer.all_there_may_be_ = true;
+  return describer;
+}
+
+void Describer::section(const std::string& name, std::string doc) {
+  place_.section = path_of(name);
+  sections_.push_back({place_.section, std::move(doc)});
+}
+
+void Describer::origin(std::string& text) const {
+  if (document_) text = document_->origin(place_.section).text;
+}
+
+std::string Describer::element(const std::string& list, std::size_t k) { return fmt::format("{}[{}]", list, k); }
+
+std::string Describer::path_of(const std::string& name) const {
+  return place_.around.empty() ? name : place_.around + "." + name;
+}
+
+std::size_t Describer::length_of_list(const std::string& name, bool needed, std::size_t present) {
+  lists_.push_back({path_of(name), needed});
+  return document_ ? document_->count(path_of(name)) : all_there_may_be_ ? 1 : present;
+}
+
+std::vector<std::string> Describer::keys_of_map(const std::string& name, const std::string& any_key) const {
+  if (document_) return document_->children(path_of(name));
+  return all_there_may_be_ ? std::vector{any_key} : std::vector<std::string>{};
+}
 
 Setting& Describer::add(std::string key, Target target, std::string unit, Limits limits, std::string doc) {
-  const std::string section = sections_.empty() ? "" : sections_.back().name;
-  settings_.push_back({section, std::move(key), std::move(target), std::move(unit), limits, std::move(doc)});
+  settings_.push_back({place_.section, std::move(key), std::move(target), std::move(unit), limits, std::move(doc)});
   return settings_.back();
 }
 
@@ -47,8 +75,8 @@ Setting& Describer::text(std::string key, std::string& value, std::string doc) {
 Setting& Describer::texts(std::string key, std::vector<std::string>& values, std::string doc) {
   return add(std::move(key), &values, "", any_number, std::move(doc));
 }
-Setting& Describer::word(std::string key, std::string& value, const std::vector<std::string>& words, std::string doc) {
-  Choice choice{words, [&value] { return value; }, [&value, words](std::size_t k) { value = words[k]; }};
+Setting& Describer::chosen(std::string key, std::string word, std::vector<std::string> words, std::string doc) {
+  Choice choice{std::move(words), [word = std::move(word)] { return word; }, [](std::size_t) {}};
   return add(std::move(key), std::move(choice), "", any_number, std::move(doc));
 }
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -85,23 +86,32 @@ void flatten(const toml::table& table, const std::string& path, Document& docume
   }
 }
 
-/// "bodies.projectile.velocity" -> "bodies[1].velocity"; other paths stay. Throws if there is no such body.
-std::string resolve_body(const Document& document, const std::string& path) {
-  constexpr std::string_view by_name = "bodies.", by_index = "bodies[";
-  if (!path.starts_with(by_name) && !path.starts_with(by_index)) return path;
-  const std::size_t dot = path.find('.', by_name.size());
-  const std::string body = path.substr(by_name.size(), dot - by_name.size());
-  std::string known;
-  for (std::size_t k = 0; k < document.count("bodies"); ++k) {
-    const std::string element = fmt::format("bodies[{}]", k);
-    const auto name = document.items.find(element + ".name");
-    const std::string text = name == document.items.end() ? element : to_text(name->second.literal);
-    if (path.starts_with(element + ".")) return path;
-    if (text == '"' + body + '"' && dot != std::string::npos) return element + path.substr(dot);
-    known += (known.empty() ? "" : ", ") + text;
+std::optional<std::string> name_of_element(const Document& document, const std::string& element) {
+  const auto name = document.items.find(element + ".name");
+  const auto* text = name == document.items.end() ? nullptr : std::get_if<std::string>(&name->second.literal.value);
+  return text ? std::optional(*text) : std::nullopt;
+}
+
+/// "bodies.projectile.velocity" -> "bodies[1].velocity"; other paths stay. Throws if a list holds no such thing.
+std::string with_numbers(const Document& document, std::string path) {
+  for (std::size_t end = path.find_first_of(".["); end != std::string::npos; end = path.find_first_of(".[", end + 1)) {
+    const std::string list = path.substr(0, end);
+    const std::size_t count = document.count(list), dot = path.find('.', end + 1);
+    if (count == 0) continue;
+    const std::string asked = path.substr(0, dot);
+    std::string found, known;
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::string element = fmt::format("{}[{}]", list, k);
+      const std::optional<std::string> name = name_of_element(document, element);
+      if (asked == element || (name && asked == list + "." + *name)) found = element;
+      known += (known.empty() ? "" : ", ") + (name ? '"' + *name + '"' : element);
+    }
+    if (found.empty() || dot == std::string::npos)
+      throw InputError(fmt::format("--set {}: expected one of the {} {}", path, list, known));
+    path = found + path.substr(dot);
+    end = found.size() - 1;
   }
-  throw InputError(
-      fmt::format("--set {}: expected one of the bodies {}", path, known.empty() ? "(there is none)" : known));
+  return path;
 }
 
 Literal parse_literal(const std::string& text) {
@@ -173,6 +183,30 @@ Document Document::below(const std::string& path) const {
   return part;
 }
 
+std::string without_numbers(const std::string& path) {
+  std::string text;
+  bool number = false;
+  for (const char c : path) {
+    number = number || c == '[';
+    if (!number) text += c;
+    number = number && c != ']';
+  }
+  return text;
+}
+
+std::string with_names(const Document& document, const std::string& path) {
+  std::string text;
+  for (std::size_t start = 0; start < path.size();) {
+    const std::size_t open = path.find('[', start), close = path.find(']', start);
+    text += path.substr(start, open - start);
+    if (open == std::string::npos) break;
+    const std::optional<std::string> name = name_of_element(document, path.substr(0, close + 1));
+    text += name ? "." + *name : path.substr(open, close + 1 - open);
+    start = close + 1;
+  }
+  return text;
+}
+
 Document parse_document(const std::string& text, const std::string& name) {
   Document document;
   document.file = name;
@@ -201,7 +235,7 @@ void apply_override(Document& document, const std::string& assignment) {
   if (equals == std::string::npos || equals == 0 || equals + 1 == assignment.size())
     throw InputError(fmt::format("--set {}: expected key=value such as time.end=20us", assignment));
   const std::string key = assignment.substr(0, equals);
-  const std::string path = resolve_body(document, key);
+  const std::string path = with_numbers(document, key);
   document.items[path] = {parse_literal(assignment.substr(equals + 1)),
                           {"--set " + key, std::numeric_limits<int>::max()}};
 }

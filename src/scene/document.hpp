@@ -49,14 +49,20 @@ struct Document {
   Document below(const std::string& path) const;
 };
 
+/// "bodies[1].profile" -> "bodies.profile", as TOML writes it.
+std::string without_numbers(const std::string& path);
+
+/// "bodies[1].velocity" -> "bodies.projectile.velocity", as people call it: what has a name goes by it.
+std::string with_names(const Document& document, const std::string& path);
+
 /// Throws InputError if the file is missing or not TOML (with its line).
 Document read_document(const std::string& path);
 
 /// The same from text; `name` stands for the file in messages.
 Document parse_document(const std::string& text, const std::string& name);
 
-/// Applies "time.end=20us". The value needs no quotes. bodies.projectile.velocity finds the body by its name.
-/// Throws InputError if there is no key, no value or no such body.
+/// Applies "time.end=20us". The value needs no quotes. bodies.projectile.velocity finds the body by its name, and so in
+/// every list. Throws InputError if there is no key, no value or no such body.
 void apply_override(Document& document, const std::string& assignment);
 
 }  // namespace ejecta

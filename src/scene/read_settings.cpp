@@ -150,6 +150,23 @@ std::string suggestion(const std::string& path, const std::vector<std::string>& 
   return "";
 }
 
+/// Whether a path belongs to what is written as something else than a list.
+bool in_place_of_a_list(const Describer& description, const std::string& path) {
+  return std::ranges::any_of(description.lists(), [&](const Describer::List& list) {
+    return path == list.path || path.starts_with(list.path + ".");
+  });
+}
+
+void check_lists(const Describer& description, const Document& document, Problems& problems) {
+  for (const auto& [path, needed] : description.lists()) {
+    const bool written_otherwise = document.tables.contains(path) || document.items.contains(path);
+    if (written_otherwise || (needed && document.count(path) == 0))
+      problems.add(document.origin(path), path,
+                   fmt::format("expected {}, each written under [[{}]]", needed ? "at least one" : "any number of them",
+                               without_numbers(path)));
+  }
+}
+
 void refuse_unknown(const Describer& description, const Document& document, Problems& problems) {
   std::vector<std::string> keys, sections;
   for (const Setting& setting : description.settings()) keys.push_back(setting.path());
@@ -174,11 +191,12 @@ void refuse_unknown(const Describer& description, const Document& document, Prob
     if (known(keys, table)) return problems.add(origin, table, "expected a value, got a section");
     problems.add(origin, table, "unknown section" + hint(nearest_word(table, sections)));
   };
-  for (const auto& [path, origin] : document.tables)
-    if (const std::string table = unknown_table(path + "."); !table.empty())
-      refuse_table(table, document.tables.at(path));
+  for (const auto& [path, origin] : document.tables) {
+    const std::string table = unknown_table(path + ".");
+    if (!table.empty() && !in_place_of_a_list(description, path)) refuse_table(table, document.tables.at(path));
+  }
   for (const auto& [path, item] : document.items) {
-    if (known(keys, path)) continue;
+    if (known(keys, path) || in_place_of_a_list(description, path)) continue;
     if (const std::string table = unknown_table(path); !table.empty())
       refuse_table(table, item.origin);
     else if (known(sections, path))
@@ -254,6 +272,7 @@ void read_settings(const Describer& description, const Document& document, Probl
       problems.add(item->second.origin, setting.path(), error.what());
     }
   }
+  check_lists(description, document, problems);
   refuse_unknown(description, document, problems);
 }
 

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scene/body_shape.hpp"
 #include "scene/boundary.hpp"
 #include "scene/choices.hpp"
 #include "scene/document.hpp"
@@ -33,8 +34,8 @@ struct Profile {
 /// One solid or gas body, filled with particles at set-up. Later bodies do not displace earlier ones.
 struct Body {
   std::string name;
-  std::string material;              ///< name of inputs/materials/<material>.toml
-  std::string shape = "sphere";      ///< sphere | box | cylinder (2D: disc | rectangle)
+  std::string material;  ///< name of inputs/materials/<material>.toml
+  BodyShape shape = BodyShape::sphere;
   Triple center{0, 0, 0};            ///< m
   double radius = unset;             ///< m; sphere, disc, cylinder
   double inner_radius = 0;           ///< m; of the hole in them
@@ -52,6 +53,9 @@ struct Body {
   double jitter = 0;                 ///< random displacement along each axis, up to this many spacings
   Profile profile;
 };
+
+/// Diameter, edges, length [m]: those that the shape of a body has, not a number where it is not set.
+std::vector<double> widths(const Body& body, int dimension);
 
 struct Numerics {
   SchemeKind scheme = SchemeKind::sph;

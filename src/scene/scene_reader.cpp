@@ -82,21 +82,12 @@ Scene interpret(Document document, const std::vector<std::string>& overrides, co
   Scene scene;
   scene.file = document.file;
   take_materials(document, scene, problems);
-  scene.bodies.resize(document.count("bodies"));
-  if (scene.bodies.empty())
-    problems.add(document.origin("bodies"), "bodies", "expected at least one body, each written under [[bodies]]");
-  // A single [bodies] has just been refused as a whole.
-  if (document.tables.erase("bodies"))
-    std::erase_if(document.items, [](const auto& item) { return item.first.starts_with("bodies."); });
-  for (const std::string& field : document.children("insitu.ranges")) scene.insitu.ranges[field] = {0, 1};
   for (const SceneSection& section : context.sections)
     if (document.holds(section.name)) scene.sections[section.name] = section.settings();
-  Describer description;
+  Describer description(document);
   describe(description, scene, context.sections);
   read_settings(description, document, problems);
   if (!context.fields.empty()) check_ranges(document, context.fields, problems);
-  for (std::size_t k = 0; k < scene.bodies.size(); ++k)
-    scene.bodies[k].origin = document.origin(fmt::format("bodies[{}]", k)).text;
   find_pipelines(scene, document, problems);
   check_scene(scene, document, problems);
   problems.throw_if_any();
@@ -124,9 +115,7 @@ std::string scene_toml(const Scene& scene) {
 std::string scene_reference(std::string_view section, const std::vector<SceneSection>& sections) {
   Scene scene;
   for (const SceneSection& s : sections) scene.sections[s.name] = s.settings();
-  scene.bodies.resize(1);
-  scene.insitu.ranges["<field>"] = {0, 1};
-  Describer description;
+  Describer description = Describer::of_all_there_may_be();
   describe(description, scene, sections);
   return write_reference(description, section);
 }

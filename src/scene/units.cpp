@@ -9,8 +9,10 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <span>
 
 #include "base/errors.hpp"
+#include "base/si_prefixes.hpp"
 
 namespace ejecta {
 
@@ -49,13 +51,8 @@ constexpr std::array symbols{
     Symbol{"deg", {std::numbers::pi / 180, 0, {0, 0, 0, 0, 1}}},
 };
 
-struct Prefix {
-  std::string_view name;
-  int ten;
-};
-constexpr std::array prefixes{Prefix{"f", -15},     Prefix{"p", -12},     Prefix{"n", -9}, Prefix{"u", -6},
-                              Prefix{"\u00b5", -6}, Prefix{"\u03bc", -6}, Prefix{"m", -3}, Prefix{"c", -2},
-                              Prefix{"k", 3},       Prefix{"M", 6},       Prefix{"G", 9},  Prefix{"T", 12}};
+/// Understood but never shown; the second is the Greek letter, which looks like the sign for micro.
+constexpr std::array more_prefixes{SiPrefix{-2, "c"}, SiPrefix{-6, "\u03bc"}};
 
 struct Noun {
   std::string_view unit, name, example;
@@ -78,14 +75,14 @@ constexpr std::array nouns{
 };
 
 std::optional<Unit> find_symbol(std::string_view name) {
-  for (const Symbol& symbol : symbols)
-    if (symbol.name == name) return symbol.unit;
-  for (const Prefix& prefix : prefixes) {
-    if (!name.starts_with(prefix.name)) continue;
-    for (const Symbol& symbol : symbols)
-      if (symbol.name == name.substr(prefix.name.size())) {
-        Unit unit = symbol.unit;
-        unit.ten += prefix.ten;
+  for (const Symbol& symbol : symbols) {
+    if (!name.ends_with(symbol.name)) continue;
+    const std::string_view before = name.substr(0, name.size() - symbol.name.size());
+    const auto fits = [&](const SiPrefix& prefix) { return before == prefix.symbol || before == prefix.typed; };
+    Unit unit = symbol.unit;
+    for (const std::span<const SiPrefix> list : {std::span<const SiPrefix>(si_prefixes), {more_prefixes}})
+      if (const auto prefix = std::ranges::find_if(list, fits); prefix != list.end()) {
+        unit.ten += prefix->ten;
         return unit;
       }
   }
@@ -190,11 +187,12 @@ std::string format_quantity(double value, std::string_view si_unit) {
   const bool takes_prefix =
       find_symbol(first) && first != "kg" && first != "rad" && !si_unit.substr(first.size()).starts_with('^');
   if (!takes_prefix || value == 0 || !std::isfinite(value)) return fmt::format("{:.4g} {}", value, si_unit);
-  constexpr std::array<std::string_view, 10> names{"f", "p", "n", "u", "m", "", "k", "M", "G", "T"};
   // The rounded value decides, so that 0.99999 ms reads "1 ms" and not "1000 us".
   const double rounded = std::abs(std::stod(fmt::format("{:.4g}", value)));
-  const int step = std::clamp(static_cast<int>(std::floor(std::log10(rounded) / 3 + 1e-12)), -5, 4);
-  return fmt::format("{:.4g} {}{}", value / std::pow(1000.0, step), names[static_cast<std::size_t>(step + 5)], si_unit);
+  const int step = static_cast<int>(std::floor(std::log10(rounded) / 3 + 1e-12));
+  const SiPrefix& prefix = *std::ranges::find_if(
+      si_prefixes, [&](const SiPrefix& p) { return p.ten <= 3 * step || &p == &si_prefixes.back(); });
+  return fmt::format("{:.4g} {}{}", value / prefix.factor(), prefix.typed, si_unit);
 }
 
 std::string format_exact(double value, std::string_view si_unit) {

@@ -69,10 +69,8 @@ std::string toml_of(const Setting& setting) { return std::visit(ToToml{setting},
 
 /// "bodies[1]" is written [[bodies]], and "bodies[1].profile" [bodies.profile]: it belongs to the body above it.
 std::string header(const std::string& section) {
-  const std::size_t open = section.find('['), close = section.find(']');
-  if (open == std::string::npos) return fmt::format("[{}]", section);
-  if (close + 1 == section.size()) return fmt::format("[[{}]]", section.substr(0, open));
-  return fmt::format("[{}{}]", section.substr(0, open), section.substr(close + 1));
+  const std::string name = without_numbers(section);
+  return section.ends_with(']') ? fmt::format("[[{}]]", name) : fmt::format("[{}]", name);
 }
 
 /// What may be written: unit, range or words.

@@ -1,6 +1,7 @@
 #pragma once
 /// The time loop: it knows packages and observers, and nothing of what they solve or show.
 #include <memory>
+#include <typeinfo>
 #include <vector>
 
 #include "model/package_kind.hpp"
@@ -15,11 +16,20 @@ struct Simulation {
   Vote vote{.reason = "start"};    ///< that won the last step
   const Package* voter = nullptr;  ///< whose it was
   StageTimers timers;              ///< of observers
-  double wall_seconds = 0;         ///< spent in steps so far
+  double wall_seconds = 0;         ///< spent in steps so far, before restarts too
+  double insitu_seconds = 0;       ///< spent in in-situ work so far, before restarts too
 };
 
 /// The packages that a scene asks for, set up. Throws as PackageKind::set_up does.
 Simulation set_up_simulation(const Scene& scene, const std::vector<Material>& materials);
+
+/// The package of a type, for those who look at one solver alone. Throws std::bad_cast if it is not there.
+template <class Solver>
+const Solver& package_of(const Simulation& sim) {
+  for (const auto& package : sim.packages)
+    if (const auto* found = dynamic_cast<const Solver*>(package.get())) return *found;
+  throw std::bad_cast{};
+}
 
 /// Watches the run from outside: images, tables, checkpoints.
 class Observer {

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "base/parallel.hpp"
+#include "sph/shape_geometry.hpp"
 
 namespace ejecta {
 
@@ -63,33 +64,6 @@ class Cells {
   std::vector<Vec<Dim>> sorted_;
 };
 
-/// A length of a body that lies between two faces: along an edge of a box or the axis of a cylinder (rank 1), or the
-/// distance from that axis or from the centre (rank 2 or 3).
-template <int Dim>
-struct Span {
-  Mat<Dim> projector;
-  int rank;
-  double low, high;  ///< m; low is 0 without a hole
-};
-
-template <int Dim>
-std::vector<Span<Dim>> spans_of(const Body& body) {
-  const Mat<Dim> all = Mat<Dim>::Identity();
-  std::vector<Span<Dim>> spans;
-  if (body.shape == "box" || body.shape == "rectangle") {
-    for (int a = 0; a < Dim; ++a)
-      spans.push_back({all.col(a) * all.col(a).transpose(), 1, 0, 0.5 * body.size[static_cast<std::size_t>(a)]});
-  } else if (body.shape == "cylinder") {
-    const Vec<Dim> axis = Eigen::Map<const Vec<Dim>>(body.axis.data()).normalized();
-    const Mat<Dim> along = axis * axis.transpose();
-    spans.push_back({along, 1, 0, 0.5 * body.length});
-    spans.push_back({all - along, Dim - 1, body.inner_radius, body.radius});
-  } else {
-    spans.push_back({all, Dim, body.inner_radius, body.radius});
-  }
-  return spans;
-}
-
 /// Adds the images of a list of points across the faces of a span, up to `away` [m] from the body. Length c goes to c'
 /// with c'^rank = 2 face^rank - c^rank: shells of equal volume on both sides, so that curved faces do not thin the
 /// images.
@@ -123,8 +97,8 @@ Vec<Dim> kept_within(const Span<Dim>& span, const Vec<Dim>& center, const Vec<Di
 
 template <int Dim>
 void relax(std::vector<Vec<Dim>>& points, const Body& body, double spacing) {
-  const Vec<Dim> center = Eigen::Map<const Vec<Dim>>(body.center.data());
-  const std::vector<Span<Dim>> spans = spans_of<Dim>(body);
+  const Vec<Dim> center = first_components<Dim>(body.center);
+  const std::vector<Span<Dim>> spans = with_shape<Dim>(body, [](const auto& shape) { return shape.spans(); });
   const double range = reach * spacing;
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     std::vector<Vec<Dim>> all = points;

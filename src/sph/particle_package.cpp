@@ -5,10 +5,14 @@
 namespace ejecta {
 
 PackageKind particle_package() {
-  return {{}, [](const Scene& scene, const std::vector<Material>& materials) -> std::unique_ptr<Package> {
-            if (scene.dimension == 2) return set_up<2>(scene, materials);
-            return set_up<3>(scene, materials);
-          }};
+  PackageKind kind;
+  kind.set_up = [](const Scene& scene, const std::vector<Material>& materials) -> std::unique_ptr<Package> {
+    if (scene.dimension == 2) return set_up<2>(scene, materials);
+    return set_up<3>(scene, materials);
+  };
+  for (const FieldInfo& field : field_catalogue())
+    if (field.role != Role::rate) kind.fields.emplace(field.name, field.unit);
+  return kind;
 }
 
 }  // namespace ejecta

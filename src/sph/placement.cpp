@@ -12,12 +12,7 @@ namespace ejecta {
 template <int Dim>
 std::uint64_t position_key(const Vec<Dim>& x, double spacing) {
   std::uint64_t key = 0x9e3779b97f4a7c15ull;
-  for (int a = 0; a < Dim; ++a) {
-    key ^= static_cast<std::uint64_t>(std::llround(x[a] / spacing * 64));
-    key = (key ^ (key >> 30)) * 0xbf58476d1ce4e5b9ull;
-    key = (key ^ (key >> 27)) * 0x94d049bb133111ebull;
-    key ^= key >> 31;
-  }
+  for (int a = 0; a < Dim; ++a) key = mix_bits(key ^ static_cast<std::uint64_t>(std::llround(x[a] / spacing * 64)));
   return key;
 }
 

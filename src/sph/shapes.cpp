@@ -2,31 +2,15 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "base/random.hpp"
 #include "sph/glass.hpp"
+#include "sph/shape_geometry.hpp"
 
 namespace ejecta {
 
 namespace {
-
-bool is_box(const Body& body) { return body.shape == "box" || body.shape == "rectangle"; }
-bool is_cylinder(const Body& body) { return body.shape == "cylinder"; }
-
-template <int Dim>
-Vec<Dim> first_components(const Triple& t) {
-  Vec<Dim> v;
-  for (int a = 0; a < Dim; ++a) v[a] = t[static_cast<std::size_t>(a)];
-  return v;
-}
-
-/// Half edge of the smallest axis-parallel box about the centre that holds the body.
-template <int Dim>
-Vec<Dim> half_extent(const Body& body) {
-  if (is_box(body)) return 0.5 * first_components<Dim>(body.size);
-  if (is_cylinder(body)) return Vec<Dim>::Constant(std::hypot(body.radius, 0.5 * body.length));
-  return Vec<Dim>::Constant(body.radius);
-}
 
 /// Lattice vectors and the points of one cell, for cells of volume (points per cell) * spacing^Dim.
 /// Hexagonal: triangular lattice in the plane, closest packing (stacking ABAB) in space, both as rectangular cells.
@@ -59,28 +43,18 @@ Cell<Dim> lattice_cell(Lattice lattice, double spacing) {
 template <int Dim>
 bool inside(const Body& body, const Vec<Dim>& x) {
   const Vec<Dim> d = x - first_components<Dim>(body.center);
-  const auto in_ring = [&](double distance2) {
-    return distance2 <= body.radius * body.radius && distance2 >= body.inner_radius * body.inner_radius;
-  };
-  if (is_box(body)) {
-    const Vec<Dim> half = half_extent<Dim>(body);
-    return (d.array().abs() <= half.array() * (1 + 1e-12)).all();
-  }
-  if (is_cylinder(body)) {
-    const Vec<Dim> axis = first_components<Dim>(body.axis).normalized();
-    const double along = d.dot(axis);
-    return std::abs(along) <= 0.5 * body.length && in_ring((d - along * axis).squaredNorm());
-  }
-  return in_ring(d.squaredNorm());
+  return with_shape<Dim>(body, [&](const auto& shape) { return shape.contains(d); });
 }
 
 template <int Dim>
 PointCloud<Dim> fill(const Body& body, double spacing, Lattice lattice, std::uint64_t seed) {
   Cell<Dim> cell = lattice_cell<Dim>(lattice, spacing);
-  const Vec<Dim> half = half_extent<Dim>(body), center = first_components<Dim>(body.center);
+  const Vec<Dim> center = first_components<Dim>(body.center);
+  const auto [half, whole_cells] = with_shape<Dim>(
+      body, [](const auto& shape) { return std::pair(Vec<Dim>(shape.half_extent()), shape.whole_cells); });
   Eigen::Matrix<int, Dim, 1> cells;
   for (int a = 0; a < Dim; ++a) {
-    if (is_box(body)) {
+    if (whole_cells) {
       cells[a] = std::max(1, static_cast<int>(std::lround(2 * half[a] / cell.edge[a])));
       cell.edge[a] = 2 * half[a] / cells[a];
     } else {
@@ -124,12 +98,8 @@ PointCloud<Dim> fill(const Body& body, double spacing, Lattice lattice, std::uin
 }
 
 double volume(const Body& body, int dim) {
-  const double pi = std::numbers::pi, r = body.radius, hole = body.inner_radius;
-  if (is_box(body)) return body.size[0] * body.size[1] * (dim == 3 ? body.size[2] : 1);
-  const double area = pi * (r * r - hole * hole);
-  if (dim == 2) return area;
-  if (is_cylinder(body)) return area * body.length;
-  return 4 * pi / 3 * (r * r * r - hole * hole * hole);
+  const auto of = [](const auto& shape) { return shape.volume(); };
+  return dim == 2 ? with_shape<2>(body, of) : with_shape<3>(body, of);
 }
 
 template PointCloud<2> fill<2>(const Body&, double, Lattice, std::uint64_t);

@@ -60,6 +60,16 @@ class RestartRules(RunTest):
         self.assertEqual(summary(out)["steps"], 8)
         self.assertEqual(resolved(out)["scene"]["title"], "Again")
 
+    def test_in_situ_work_of_before_still_counts(self):
+        out = self.run_scene(IMPACT_2D, "run", {**COARSE, "time.max_steps": 5, "insitu.enabled": "true"})
+        before = summary(out)
+        self.assertGreater(before["insitu_share"], 0.1)
+        self.run_scene(IMPACT_2D, "run", {**COARSE, "time.max_steps": 6, "insitu.enabled": "false"}, "--restart")
+        after = summary(out)
+        spent = [s["insitu_share"] * s["wall_s"] for s in (before, after)]
+        self.assertGreater(spent[1], 0.99 * spent[0])
+        self.assertLess(spent[1], 1.5 * spent[0])
+
     def test_snapshots_go_on(self):
         values = {**COARSE, "output.snapshots": 6, "time.end": "60us"}
         whole = self.run_scene(IMPACT_2D, "whole", values)

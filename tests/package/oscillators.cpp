@@ -2,21 +2,36 @@
 
 #include <cmath>
 
+#include "base/errors.hpp"
 #include "scene/describer.hpp"
 
 namespace ejecta {
 
 namespace {
 
+/// What one of them does at the start.
+struct Kick {
+  std::string name, origin;
+  std::int64_t oscillator = 1;
+  double velocity = unset;
+};
+
 struct Settings final : SectionSettings {
   std::int64_t count = 3;
   double mass = 1, period = 1, amplitude = 1, damping = 0;
+  std::vector<Kick> kicks;
   void describe(Describer& d) override {
     d.integer("count", count, at_least(1), "how many; the k-th is k times as stiff");
     d.number("mass", mass, "kg", positive, "of each");
     d.number("period", period, "s", positive, "of the first");
     d.number("amplitude", amplitude, "m", positive, "at the start");
     d.number("damping", damping, "kg/s", non_negative, "force over velocity");
+    d.list("kicks", kicks, false, "an oscillator that moves at the start", [&](Kick& kick) {
+      d.text("name", kick.name, "how --set calls it");
+      d.integer("oscillator", kick.oscillator, at_least(1), "which, from 1");
+      d.number("velocity", kick.velocity, "m/s", any_number, "that it has").required = true;
+      d.origin(kick.origin);
+    });
   }
 };
 
@@ -24,6 +39,11 @@ struct Settings final : SectionSettings {
 class Oscillators final : public Package {
  public:
   explicit Oscillators(const Settings& settings) : s_(settings), x_(n(), s_.amplitude), v_(n(), 0), heat_(n(), 0) {
+    for (const Kick& kick : s_.kicks) {
+      if (kick.oscillator > s_.count)
+        throw InputError(kick.origin + ": oscillators.kicks.oscillator: expected one of " + std::to_string(s_.count));
+      v_[static_cast<std::size_t>(kick.oscillator - 1)] = kick.velocity;
+    }
     initial = conserved();
   }
   std::string_view name() const override { return "oscillators"; }
@@ -92,7 +112,8 @@ PackageKind oscillators() {
   return {{"oscillators", "damped oscillators on anchored springs", [] { return std::make_shared<Settings>(); }},
           [](const Scene& scene, const std::vector<Material>&) -> std::unique_ptr<Package> {
             return std::make_unique<Oscillators>(dynamic_cast<const Settings&>(*scene.sections.at("oscillators")));
-          }};
+          },
+          {{"displacement", "m"}}};
 }
 
 }  // namespace ejecta

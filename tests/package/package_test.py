@@ -1,7 +1,7 @@
 """A second package with steps of its own lives in a run of particles: it votes, conserves, persists, and is seen."""
 import math
 import unittest
-from ejecta_run import SOD, RunTest, Table, ejecta, settings, summary
+from ejecta_run import SOD, RunTest, Table, ejecta, resolved, settings, summary
 
 OSCILLATORS = {"oscillators.count": 4, "oscillators.mass": "2 kg", "oscillators.period": "50 ms",
                "oscillators.amplitude": "3 mm", "oscillators.damping": "1 kg/s"}
@@ -41,6 +41,36 @@ class Package(RunTest):
         self.assertEqual(set(history["limited by"][1:]), {"oscillators"})
         self.assertLessEqual(max(history.numbers("dt")), 0.5e-6 * (1 + 1e-9))
         self.assertLess(max(map(abs, history.numbers("energy error"))), 1e-12)
+
+    def test_its_list_of_things_is_read_echoed_and_checked(self):
+        scene = self.folder / "kicked.toml"
+        scene.write_text(SOD.read_text().replace("[[bodies]]", '[[oscillators.kicks]]\nname = "hard"\nvelocity = "1 m/s"\n\n'
+                                                               "[[bodies]]", 1))
+        out = self.run_scene(scene, "kicked", {**VALUES, "oscillators.kicks.hard.velocity": "2 m/s"})
+        rate, omega, speed = 1 / (2 * 2), 2 * math.pi / 50e-3, 2
+        omega_damped = math.sqrt(omega**2 - rate**2)
+        history = Table(out / "history.csv")
+        for t, x in zip(history.numbers("time"), history.numbers("displacement")):
+            exact = math.exp(-rate * t) * (3e-3 * math.cos(omega_damped * t)
+                                           + (speed + rate * 3e-3) / omega_damped * math.sin(omega_damped * t))
+            self.assertAlmostEqual(x, exact, delta=16e-3 * 2e-3, msg=t)
+        self.assertEqual([kick["name"] for kick in resolved(out)["oscillators"]["kicks"]], ["hard"])
+        self.assertIn("[[oscillators.kicks]]", ejecta("describe", "oscillators").stdout)
+        for key, value, complaint in (("oscillators.kicks.soft.velocity", "2 m/s", 'one of the oscillators.kicks "hard"'),
+                                      ("oscillators.kicks[0].velocty", "2 m/s", "did you mean oscillators.kicks[0].velocity?"),
+                                      ("oscillators.kicks.hard.oscillator", 5, "kicked.toml:")):
+            refused = ejecta("check", scene, *settings({**VALUES, key: value}))
+            self.assertEqual(refused.returncode, 2)
+            self.assertIn(complaint, refused.stderr)
+
+    def test_its_fields_may_have_fixed_colour_ranges(self):
+        accepted = ejecta("check", SOD, *settings({**VALUES, "insitu.ranges.displacement": '["-3 mm", "3 mm"]'}))
+        self.assertEqual(accepted.returncode, 0, accepted.stderr)
+        for name, bounds, complaint in (("displacment", "[-1, 1]", "no such field, did you mean displacement?"),
+                                        ("displacement", '["-1 Pa", "1 Pa"]', "expected a length")):
+            refused = ejecta("check", SOD, *settings({**VALUES, f"insitu.ranges.{name}": bounds}))
+            self.assertEqual(refused.returncode, 2)
+            self.assertIn(complaint, refused.stderr)
 
     def test_restart_goes_on_bit_for_bit(self):
         whole = self.run_scene(SOD, "whole", {**VALUES})

@@ -1,4 +1,4 @@
-/// The packages of Ejecta and one more: what src/app/packages.cpp would be with it.
+/// The packages of Ejecta and one more, here before them: the order is free.
 #include "model/package_kind.hpp"
 #include "oscillators.hpp"
 #include "sph/particle_package.hpp"
@@ -6,7 +6,7 @@
 namespace ejecta {
 
 const std::vector<PackageKind>& package_kinds() {
-  static const std::vector<PackageKind> kinds{particle_package(), oscillators()};
+  static const std::vector<PackageKind> kinds{oscillators(), particle_package()};
   return kinds;
 }
 

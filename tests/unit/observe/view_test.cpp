@@ -28,6 +28,7 @@ TEST(View, IsAFrameAboutTheBodyThatMovesLeast) {
 
 TEST(View, OfABoxIsAsWideAsItsLongestSideInTheDimensionsThereAre) {
   Scene scene = two_balls();
+  scene.bodies[1].shape = BodyShape::box;
   scene.bodies[1].size = {0.1, 0.2, 7};
   EXPECT_DOUBLE_EQ(choose_view(scene).size, 11.2);
   scene.dimension = 2;

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "base/errors.hpp"
+#include "base/si_prefixes.hpp"
 
 namespace ejecta {
 namespace {
@@ -74,6 +75,10 @@ TEST(Monitor, JsonHoldsTheStatusAndSurvivesAnyText) {
   const Tree& lighter = tree.get_child("fragments").back().second;
   EXPECT_EQ(lighter.front().second.data(), "0.125");
   EXPECT_EQ(lighter.back().second.data(), "2");
+  const Tree& prefixes = tree.get_child("prefixes");  // with which the page shows numbers
+  EXPECT_EQ(prefixes.size(), si_prefixes.size());
+  EXPECT_EQ(prefixes.front().second.front().second.data(), "1000000000000");
+  EXPECT_EQ(prefixes.front().second.back().second.data(), "T");
 }
 
 TEST(Monitor, LongSeriesKeepTheirPeaksAndBothEnds) {

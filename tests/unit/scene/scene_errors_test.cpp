@@ -159,9 +159,9 @@ z = "periodic"
 TEST(RefusesScenes, WithoutBodies) {
   const std::string text = "[scene]\nname = \"x\"\n[resolution]\nspacing = \"1 mm\"\n[time]\nend = \"1 us\"\n";
   EXPECT_EQ(problems_of(text),
-            std::vector<std::string>{"s.toml: bodies: expected at least one body, each written under [[bodies]]"});
+            std::vector<std::string>{"s.toml: bodies: expected at least one, each written under [[bodies]]"});
   EXPECT_EQ(problems_of(text + "[bodies]\nname = \"a\"\n"),
-            std::vector<std::string>{"s.toml:7: bodies: expected at least one body, each written under [[bodies]]"});
+            std::vector<std::string>{"s.toml:7: bodies: expected at least one, each written under [[bodies]]"});
 }
 
 TEST(RefusesScenes, ThatAreMissing) {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/errors.hpp"
+#include "base/si_prefixes.hpp"
 
 namespace ejecta {
 namespace {
@@ -45,6 +46,18 @@ TEST(ParseQuantity, DecimalPrefixesAreExact) {
   EXPECT_EQ(parse_quantity("3.43 mm", "m"), 0.00343);
   EXPECT_EQ(parse_quantity("3.43e+0 mm", "m"), 0.00343);
   EXPECT_EQ(parse_quantity("1e-323 mm", "m"), 0);
+}
+
+TEST(ParseQuantity, EveryPrefixThatIsShownIsReadAsItIsShownAndTyped) {
+  for (const SiPrefix& prefix : si_prefixes) {
+    EXPECT_EQ(parse_quantity("1 " + std::string(prefix.symbol) + "Pa", "Pa"), prefix.factor());
+    EXPECT_EQ(parse_quantity("1 " + std::string(prefix.typed) + "Pa", "Pa"), prefix.factor());
+    EXPECT_EQ(format_quantity(prefix.factor(), "Pa"), "1 " + std::string(prefix.typed) + "Pa");
+  }
+  EXPECT_EQ(parse_quantity("1 \u03bcs", "s"), 1e-6);  // the Greek letter
+  EXPECT_EQ(parse_quantity("3 cm", "m"), 0.03);
+  EXPECT_EQ(format_quantity(3e15, "Pa"), "3000 TPa");
+  EXPECT_EQ(format_quantity(3e-17, "Pa"), "0.03 fPa");
 }
 
 TEST(ParseQuantity, ZeroNeedsNoUnit) { EXPECT_EQ(parse_quantity("0", "m/s"), 0); }

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double spacing = 0.05;
 
-Body round_body(const std::string& shape, double radius, double hole = 0) {
+Body round_body(BodyShape shape, double radius, double hole = 0) {
   Body body;
   body.shape = shape;
   body.center = {1, 2, 3};
@@ -27,7 +27,7 @@ Body round_body(const std::string& shape, double radius, double hole = 0) {
   body.axis = {1, 2, -0.5};
   return body;
 }
-Body box(const std::string& shape, const Triple& size) {
+Body box(BodyShape shape, const Triple& size) {
   Body body = round_body(shape, 0);
   body.size = size;
   return body;
@@ -93,7 +93,7 @@ Quality quality_of(const Body& body, const PointCloud<Dim>& cloud) {
 
 template <int Dim>
 void check(const Body& body) {
-  SCOPED_TRACE(body.shape + (body.inner_radius > 0 ? " with a hole" : ""));
+  SCOPED_TRACE(std::string(info(body.shape).word) + (body.inner_radius > 0 ? " with a hole" : ""));
   const PointCloud<Dim> cloud = fill<Dim>(body, spacing, Lattice::glass, 1);
   EXPECT_NEAR(cloud.volume * static_cast<double>(cloud.points.size()), volume(body, Dim), 1e-12);
   EXPECT_NEAR(cloud.volume / std::pow(spacing, Dim), 1, 0.03);
@@ -110,18 +110,18 @@ void check(const Body& body) {
 }
 
 TEST(Glass, IsEvenAndWithoutRowsInEveryShape) {
-  check<3>(round_body("sphere", 0.5));
-  check<3>(round_body("sphere", 0.5, 0.2));
-  check<3>(round_body("cylinder", 0.4));
-  check<3>(round_body("cylinder", 0.4, 0.1));
-  check<3>(box("box", {0.8, 0.7, 0.9}));
-  check<2>(round_body("disc", 1));
-  check<2>(round_body("disc", 1, 0.5));
-  check<2>(box("rectangle", {1.4, 1.7, 0}));
+  check<3>(round_body(BodyShape::sphere, 0.5));
+  check<3>(round_body(BodyShape::sphere, 0.5, 0.2));
+  check<3>(round_body(BodyShape::cylinder, 0.4));
+  check<3>(round_body(BodyShape::cylinder, 0.4, 0.1));
+  check<3>(box(BodyShape::box, {0.8, 0.7, 0.9}));
+  check<2>(round_body(BodyShape::disc, 1));
+  check<2>(round_body(BodyShape::disc, 1, 0.5));
+  check<2>(box(BodyShape::rectangle, {1.4, 1.7, 0}));
 }
 
 TEST(Glass, DependsOnTheSeedAndNotOnThreads) {
-  const Body ball = round_body("sphere", 0.4);
+  const Body ball = round_body(BodyShape::sphere, 0.4);
   const auto points = fill<3>(ball, spacing, Lattice::glass, 1).points;
   ASSERT_GT(points.size(), 2000u);
   EXPECT_NE(points.front(), fill<3>(ball, spacing, Lattice::glass, 2).points.front());
@@ -129,7 +129,7 @@ TEST(Glass, DependsOnTheSeedAndNotOnThreads) {
 }
 
 TEST(Glass, EveryPointHasAKeyOfItsOwn) {
-  const auto cloud = fill<3>(round_body("sphere", 0.5), spacing, Lattice::glass, 1);
+  const auto cloud = fill<3>(round_body(BodyShape::sphere, 0.5), spacing, Lattice::glass, 1);
   std::vector<std::uint64_t> keys;
   for (const Vec<3>& x : cloud.points) keys.push_back(position_key<3>(x, std::cbrt(cloud.volume)));
   std::sort(keys.begin(), keys.end());
@@ -138,10 +138,10 @@ TEST(Glass, EveryPointHasAKeyOfItsOwn) {
 
 /// One layer, one row and one point stay in the middle between the faces.
 TEST(Glass, ThinBodiesAreLayersAndRows) {
-  const auto layer = fill<3>(box("box", {0.5, 0.5, 0.04}), spacing, Lattice::glass, 1);
+  const auto layer = fill<3>(box(BodyShape::box, {0.5, 0.5, 0.04}), spacing, Lattice::glass, 1);
   ASSERT_EQ(layer.points.size(), 100u);
   for (const Vec<3>& x : layer.points) EXPECT_NEAR(x[2], 3, 0.01);
-  const auto row = fill<2>(box("rectangle", {0.5, 0.04, 0}), spacing, Lattice::glass, 1);
+  const auto row = fill<2>(box(BodyShape::rectangle, {0.5, 0.04, 0}), spacing, Lattice::glass, 1);
   ASSERT_EQ(row.points.size(), 10u);
   std::vector<double> places;
   for (const Vec<2>& x : row.points) {
@@ -150,7 +150,7 @@ TEST(Glass, ThinBodiesAreLayersAndRows) {
   }
   std::sort(places.begin(), places.end());
   for (std::size_t k = 1; k < 10; ++k) EXPECT_NEAR(places[k] - places[k - 1], spacing, 0.25 * spacing);
-  EXPECT_EQ(fill<2>(box("rectangle", {0.04, 0.04, 0}), spacing, Lattice::glass, 1).points.size(), 1u);
+  EXPECT_EQ(fill<2>(box(BodyShape::rectangle, {0.04, 0.04, 0}), spacing, Lattice::glass, 1).points.size(), 1u);
 }
 
 }  // namespace

@@ -18,20 +18,20 @@ Body sphere(double radius) {
 }
 Body disc(double radius) {
   Body body = sphere(radius);
-  body.shape = "disc";
+  body.shape = BodyShape::disc;
   body.center[2] = 0;
   return body;
 }
 Body box(const Triple& size, bool flat = false) {
   Body body;
-  body.shape = flat ? "rectangle" : "box";
+  body.shape = flat ? BodyShape::rectangle : BodyShape::box;
   body.center = {1, 2, flat ? 0.0 : 3};
   body.size = size;
   return body;
 }
 Body cylinder(double radius, double length, const Triple& axis) {
   Body body = sphere(radius);
-  body.shape = "cylinder";
+  body.shape = BodyShape::cylinder;
   body.length = length;
   body.axis = axis;
   return body;
@@ -98,7 +98,7 @@ TEST(Shapes, NoPointLiesOutsideByMoreThanAQuarterOfTheSpacing) {
   for (const Lattice lattice : {Lattice::cubic, Lattice::hexagonal}) {
     const auto all_inside = [&](const Body& body, const Body& grown, auto dim) {
       constexpr int Dim = decltype(dim)::value;
-      for (const auto& x : fill<Dim>(body, s, lattice).points) EXPECT_TRUE(inside<Dim>(grown, x)) << body.shape;
+      for (const auto& x : fill<Dim>(body, s, lattice).points) EXPECT_TRUE(inside<Dim>(grown, x)) << info(body.shape).word;
     };
     const std::integral_constant<int, 3> space;
     const std::integral_constant<int, 2> plane;
