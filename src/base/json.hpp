@@ -33,7 +33,10 @@ inline std::string to_json(std::integral auto value) { return fmt::format("{}", 
 template <class Values, class Text>
 std::string json_list(const Values& values, Text text) {
   std::string list = "[";
-  for (const auto& value : values) list += (list.size() > 1 ? "," : "") + text(value);
+  for (const auto& value : values) {
+    if (list.size() > 1) list += ',';
+    list += text(value);
+  }
   return list + ']';
 }
 template <class Values>
