@@ -9,8 +9,8 @@ constexpr std::array<std::size_t, 3> first_of_axis{1, 3, 9};
 constexpr std::size_t choices = 27;
 
 /// All combinations, in the order of sums over the axes of first_of_axis times 0, 1 or 2.
-std::vector<Transform> transforms_of(const Boundary& boundary) {
-  std::vector<Transform> all(choices);
+std::array<Transform, choices> transforms_of(const Boundary& boundary) {
+  std::array<Transform, choices> all;
   for (std::size_t k = 1; k < choices; ++k)
     for (std::size_t a = 0; a < 3; ++a) {
       const std::size_t choice = k / first_of_axis[a] % 3;

@@ -28,7 +28,7 @@ struct Transform {
 
 struct Ghost {
   std::uint16_t owner;      ///< of the source: 0 the particles that see it, k the k-th of their guests
-  std::uint16_t transform;  ///< place in GhostList::transforms
+  std::uint16_t transform;  ///< place in GhostList::transforms; 0: none
   std::uint32_t source;     ///< particle of the owner
 };
 
@@ -40,7 +40,7 @@ using Guests = std::vector<const Particles<Dim>*>;
 
 template <int Dim>
 struct GhostList {
-  std::vector<Transform> transforms;
+  std::array<Transform, 27> transforms;  ///< on each axis none, at or beyond the lower face, or the upper one
   std::vector<Ghost> ghosts;
   Guests<Dim> guests;
 
@@ -49,7 +49,7 @@ struct GhostList {
     return ghost.owner == 0 ? own : *guests[ghost.owner - 1u];
   }
   std::size_t size() const { return ghosts.size(); }
-  std::size_t bytes() const { return transforms.capacity() * sizeof(Transform) + ghosts.capacity() * sizeof(Ghost); }
+  std::size_t bytes() const { return ghosts.capacity() * sizeof(Ghost); }
 };
 
 /// Mirrors a symmetric tensor (order: base/types.hpp) across an axis: the off-diagonals that hold it once flip.

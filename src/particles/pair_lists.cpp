@@ -1,7 +1,9 @@
 #include "particles/pair_lists.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "base/parallel.hpp"
@@ -17,6 +19,11 @@ constexpr double least_margin = 0.03;  ///< of the support radius: what even a r
 template <int Dim>
 double stretch_of(const Particles<Dim>& particles, std::size_t i) {
   return particles.has(Field::stretch) ? particles.column(Field::stretch)[i] : 1.0;
+}
+
+/// Appends first + k for every bit k.
+void append(std::vector<std::uint32_t>& list, unsigned bits, std::uint32_t first) {
+  for (; bits != 0; bits &= bits - 1) list.push_back(first + static_cast<std::uint32_t>(std::countr_zero(bits)));
 }
 }  // namespace
 
@@ -34,7 +41,7 @@ void PairLists<Dim>::build(const Particles<Dim>& particles, const Settings& sett
     found.clear();
     for (std::size_t c = begin; c < end; ++c) {
       clusters_[c].list_begin = found.size();
-      search(c, found);
+      tensor_ ? search<true>(c, found) : search<false>(c, found);
       clusters_[c].list_end = found.size();
     }
   });
@@ -56,65 +63,55 @@ void PairLists<Dim>::make_points(const Particles<Dim>& particles, const Settings
                     ? 0.0
                     : parallel_sum<double>(n, [&](std::size_t i) { return mass[i] * v[i]; }) / total_mass;
   }
-  const bool tensor = particles.has(Field::smoothing_metric);
-  points_.resize(n);
-  ellipsoids_.resize(tensor ? n : 0);
-  parallel_for(0, n, [&](std::size_t i) {
-    points_[i] = point_of(particles, i, settings);
-    if (tensor) ellipsoids_[i] = ellipsoid_of(particles, i, points_[i]);
-  });
+  tensor_ = particles.has(Field::smoothing_metric);
+  const int used = tensor_ ? per_length + 1 : columns_of_all;
+  points_.resize(n, used);
+  parallel_for(0, n, [&](std::size_t i) { set_point(i, particles, i, settings); });
   ghosts_.ghosts.clear();
   if (!settings.boundary.bounded() && guests.empty()) return;
   // A pair may be as far apart as the widest reach of the one and the widest margin of the other.
-  double reach = 0, margin = 0;
-  for (const Point& p : points_) {
-    reach = std::max(reach, p.support + p.margin);
-    margin = std::max(margin, p.margin);
+  double reach = 0, widest = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    reach = std::max(reach, points_(support, i) + points_(margin, i));
+    widest = std::max(widest, points_(margin, i));
   }
-  find_ghosts(particles, guests, settings.boundary, reach + margin, ghosts_);
-  for (const Ghost& ghost : ghosts_.ghosts) {
+  find_ghosts(particles, guests, settings.boundary, reach + widest, ghosts_);
+  points_.resize(n + ghosts_.size(), used);
+  for (std::size_t k = 0; k < ghosts_.size(); ++k) {
+    const Ghost& ghost = ghosts_.ghosts[k];
     const Transform& seen = ghosts_.transform(ghost);
-    const Particles<Dim>& owner = ghosts_.owner(ghost, particles);
-    Point p = ghost.owner == 0 ? points_[ghost.source] : point_of(owner, ghost.source, settings);
-    if (tensor) {
-      Ellipsoid e = ghost.owner == 0 ? ellipsoids_[ghost.source] : ellipsoid_of(owner, ghost.source, p);
-      for (int a = 0; a < Dim; ++a)
-        if (seen.mirrors(a)) mirror_symmetric<Dim>(e.metric.data(), a);
-      ellipsoids_.push_back(e);
+    set_point(n + k, ghosts_.owner(ghost, particles), ghost.source, settings);
+    for (int a = 0; a < Dim; ++a) {
+      points_(x + a, n + k) = seen.position(a, points_(x + a, n + k));
+      if (!tensor_ || !seen.mirrors(a)) continue;
+      std::array<double, symmetric_size<Dim>> mirrored;
+      for (int s = 0; s < symmetric_size<Dim>; ++s) mirrored[static_cast<std::size_t>(s)] = points_(metric + s, n + k);
+      mirror_symmetric<Dim>(mirrored.data(), a);
+      for (int s = 0; s < symmetric_size<Dim>; ++s) points_(metric + s, n + k) = mirrored[static_cast<std::size_t>(s)];
     }
-    for (int a = 0; a < Dim; ++a) p.x[a] = seen.position(a, p.x[a]);
-    points_.push_back(p);
   }
 }
 
 template <int Dim>
-typename PairLists<Dim>::Point PairLists<Dim>::point_of(const Particles<Dim>& particles, std::size_t i,
-                                                        const Settings& settings) const {
-  Point p;
+void PairLists<Dim>::set_point(std::size_t place, const Particles<Dim>& owner, std::size_t i,
+                               const Settings& settings) {
   double speed2 = 0;
   for (int a = 0; a < Dim; ++a) {
-    p.x[a] = particles.column(Field::position, a)[i];
-    const double v = particles.column(Field::velocity, a)[i] - drift_[a];
+    points_(x + a, place) = owner.column(Field::position, a)[i];
+    const double v = owner.column(Field::velocity, a)[i] - drift_[a];
     speed2 += v * v;
   }
-  p.support = settings.support * particles.column(Field::smoothing_length)[i] * stretch_of(particles, i);
-  p.margin = least_margin * p.support + std::sqrt(speed2) * settings.horizon;
-  return p;
-}
-
-template <int Dim>
-typename PairLists<Dim>::Ellipsoid PairLists<Dim>::ellipsoid_of(const Particles<Dim>& particles, std::size_t i,
-                                                                Point& point) const {
-  const Mat<Dim> metric = particles.symmetric(Field::smoothing_metric, i), inverse = metric.inverse();
-  const Axes axes = axes_of<Dim>(metric);
-  const double stretch = stretch_of(particles, i);
-  Ellipsoid e;
+  const double stretch = stretch_of(owner, i);
+  points_(support, place) = settings.support * owner.column(Field::smoothing_length)[i] * stretch;
+  points_(margin, place) = least_margin * points_(support, place) + std::sqrt(speed2) * settings.horizon;
+  if (!tensor_) return;
+  const Mat<Dim> G = owner.symmetric(Field::smoothing_metric, i), inverse = G.inverse();
+  const Axes axes = axes_of<Dim>(G);
   for (int k = 0; k < symmetric_size<Dim>; ++k)
-    e.metric[k] = particles.column(Field::smoothing_metric, k)[i] / (stretch * stretch);
-  for (int a = 0; a < Dim; ++a) e.extent[a] = support_per_h_ * stretch * std::sqrt(inverse(a, a));
-  e.per_length = 1 / (stretch * axes.shortest);
-  point.support = support_per_h_ * stretch * axes.longest;
-  return e;
+    points_(metric + k, place) = owner.column(Field::smoothing_metric, k)[i] / (stretch * stretch);
+  for (int a = 0; a < Dim; ++a) points_(extent + a, place) = settings.support * stretch * std::sqrt(inverse(a, a));
+  points_(per_length, place) = 1 / (stretch * axes.shortest);
+  points_(support, place) = settings.support * stretch * axes.longest;
 }
 
 template <int Dim>
@@ -127,152 +124,175 @@ void PairLists<Dim>::make_clusters(const Particles<Dim>& particles, std::size_t 
   };
   for (Range range : particles.material_ranges()) cut(clusters_, range);
   leaves_ = clusters_;
-  cut(leaves_, {particles.size(), points_.size()});
+  cut(leaves_, {particles.size(), particles.size() + ghosts_.size()});
 }
 
 template <int Dim>
 void PairLists<Dim>::make_tree() {
-  auto enclose = [](Node& node, const auto& low, const auto& high, const auto& extent, double support, double margin) {
-    for (int a = 0; a < Dim; ++a) {
-      node.low[a] = std::min(node.low[a], low[a]);
-      node.high[a] = std::max(node.high[a], high[a]);
-      node.extent[a] = std::max(node.extent[a], extent[a]);
-    }
-    node.support = std::max(node.support, support);
-    node.margin = std::max(node.margin, margin);
-  };
-  Node empty;
-  empty.low.fill(std::numeric_limits<double>::infinity());
-  empty.high.fill(-std::numeric_limits<double>::infinity());
-
+  constexpr double infinity = std::numeric_limits<double>::infinity();
   std::size_t depth = 1;
   for (std::size_t count = leaves_.size(); count > fan_out; count = (count + fan_out - 1) / fan_out) ++depth;
   levels_.resize(depth);
-  levels_[0].assign(leaves_.size(), empty);
-  parallel_for(0, leaves_.size(), [&](std::size_t c) {
-    for (std::size_t i = leaves_[c].begin; i < leaves_[c].end; ++i) {
-      std::array<double, Dim> extent;
-      extent.fill(points_[i].support);
-      enclose(levels_[0][c], points_[i].x, points_[i].x, ellipsoids_.empty() ? extent : ellipsoids_[i].extent,
-              points_[i].support, points_[i].margin);
-    }
-  });
-  for (std::size_t level = 1; level < depth; ++level) {
-    const auto& below = levels_[level - 1];
-    levels_[level].assign((below.size() + fan_out - 1) / fan_out, empty);
-    for (std::size_t k = 0; k < below.size(); ++k)
-      enclose(levels_[level][k / fan_out], below[k].low, below[k].high, below[k].extent, below[k].support,
-              below[k].margin);
+  std::size_t count = leaves_.size();
+  for (std::size_t l = 0; l < depth; ++l, count = (count + fan_out - 1) / fan_out) {
+    Level& level = levels_[l];
+    level.resize(count);
+    level.count = count;
+    // A node encloses the points of a leaf, or the nodes below.
+    const auto enclose = [&](std::size_t node, std::size_t begin, std::size_t end, const auto& below, int below_low,
+                             int below_high, int below_extent, int below_support, int below_margin) {
+      for (int a = 0; a < Dim; ++a) {
+        double least = infinity, most = -infinity, widest = 0;
+        for (std::size_t i = begin; i < end; ++i) {
+          least = std::min(least, below(below_low + a, i));
+          most = std::max(most, below(below_high + a, i));
+          if (tensor_) widest = std::max(widest, below(below_extent + a, i));
+        }
+        level(low + a, node) = least;
+        level(high + a, node) = most;
+        level(largest_extent + a, node) = widest;
+      }
+      double reach = 0, motion = 0;
+      for (std::size_t i = begin; i < end; ++i) {
+        reach = std::max(reach, below(below_support, i));
+        motion = std::max(motion, below(below_margin, i));
+      }
+      level(largest_support, node) = reach;
+      level(largest_margin, node) = motion;
+    };
+    parallel_for(0, count, [&](std::size_t k) {
+      if (l == 0) return enclose(k, leaves_[k].begin, leaves_[k].end, points_, x, x, extent, support, margin);
+      const Level& below = levels_[l - 1];
+      enclose(k, k * fan_out, std::min((k + 1) * fan_out, below.count), below, low, high, largest_extent,
+              largest_support, largest_margin);
+    });
   }
 }
 
+/// As many nodes, or candidates, at a time as a register has lanes.
 template <int Dim>
+template <bool Tensor>
 void PairLists<Dim>::search(std::size_t cluster, std::vector<std::uint32_t>& found) const {
-  const Node& own = levels_[0][cluster];
+  using V = simd::Doubles;
+  constexpr std::size_t lanes = simd::lanes<double>;
+  const Level& leaves = levels_[0];
   const Cluster& members = clusters_[cluster];
-  const bool tensor = !ellipsoids_.empty();
-  auto near_node = [&](const Node& node) {
-    const double margin = own.margin + node.margin;
-    double distance2 = 0;
+  const double own_support = leaves(largest_support, cluster), own_margin = leaves(largest_margin, cluster);
+  /// Bits of those whose box (or place) may be near the box of the cluster.
+  const auto near_box = [&](const auto& boxes, std::size_t first, int box_low, int box_high, int box_extent,
+                            int box_support, int box_margin) {
+    const V both_margins = boxes.lanes(box_margin, first) + own_margin;
+    V distance2{};
+    unsigned out = 0;
     for (int a = 0; a < Dim; ++a) {
-      const double gap = std::max({0.0, node.low[a] - own.high[a], own.low[a] - node.high[a]});
-      if (tensor && gap > std::max(own.extent[a], node.extent[a]) + margin) return false;
+      const V gap = simd::max(V{}, simd::max(V(boxes.lanes(box_low + a, first) - leaves(high + a, cluster)),
+                                             V(leaves(low + a, cluster) - boxes.lanes(box_high + a, first))));
       distance2 += gap * gap;
+      if constexpr (Tensor)
+        out |= simd::lanes_less(
+            V(simd::max(simd::all<V>(leaves(largest_extent + a, cluster)), boxes.lanes(box_extent + a, first)) +
+              both_margins),
+            gap);
     }
-    const double reach = std::max(own.support, node.support) + margin;
-    return distance2 < reach * reach;
+    const V reach = simd::max(simd::all<V>(own_support), boxes.lanes(box_support, first)) + both_margins;
+    return simd::lanes_less(distance2, V(reach * reach)) & ~out;
   };
-  constexpr std::size_t lanes = simd::lanes<double>, most_groups = largest_cluster / lanes;
-  const std::size_t groups = (members.end - members.begin + lanes - 1) / lanes;
-  std::array<simd::Doubles, most_groups> x[Dim], support, margin, metric[symmetric_size<Dim>], per_length;
-  for (std::size_t g = 0; g < groups; ++g)
-    for (std::size_t k = 0; k < lanes; ++k) {
-      const std::size_t i = std::min<std::size_t>(members.begin + lanes * g + k, members.end - 1);
-      const Point& p = points_[i];
-      for (int a = 0; a < Dim; ++a) x[a][g][k] = p.x[a];
-      support[g][k] = p.support;
-      margin[g][k] = p.margin;
-      if (!tensor) continue;
-      for (int s = 0; s < symmetric_size<Dim>; ++s) metric[s][g][k] = ellipsoids_[i].metric[s];
-      per_length[g][k] = ellipsoids_[i].per_length;
-    }
-  auto near_any_member = [&](const Point& q) {
-    for (std::size_t g = 0; g < groups; ++g) {
-      simd::Doubles distance2{};
-      for (int a = 0; a < Dim; ++a) distance2 += (x[a][g] - q.x[a]) * (x[a][g] - q.x[a]);
-      const simd::Doubles reach = simd::max(support[g], simd::all<simd::Doubles>(q.support)) + margin[g] + q.margin;
-      if (simd::any_less(distance2, reach * reach)) return true;
-    }
-    return false;
-  };
-  // |H x| grows by at most |H| times the margin while the lists are in use.
-  auto ellipsoids_meet = [&](const Point& q, const Ellipsoid& e) {
-    for (std::size_t g = 0; g < groups; ++g) {
-      simd::Doubles dx[Dim], own_eta2{}, other_eta2{};
-      for (int a = 0; a < Dim; ++a) dx[a] = x[a][g] - q.x[a];
-      int s = Dim;
-      for (int a = 0; a < Dim; ++a) {
-        own_eta2 += metric[a][g] * dx[a] * dx[a];
-        other_eta2 += e.metric[a] * dx[a] * dx[a];
-        for (int b = a + 1; b < Dim; ++b, ++s) {
-          own_eta2 += 2 * metric[s][g] * dx[a] * dx[b];
-          other_eta2 += 2 * e.metric[s] * dx[a] * dx[b];
+  /// Bits of those that may come within reach of any member; `near`: of those that need be looked at.
+  const auto near_members = [&](std::size_t first, unsigned near) {
+    unsigned met = 0;
+    V place[Dim], other_metric[symmetric_size<Dim>];
+    for (int a = 0; a < Dim; ++a) place[a] = points_.lanes(x + a, first);
+    const V other_margin = points_.lanes(margin, first);
+    if constexpr (Tensor)
+      for (int s = 0; s < symmetric_size<Dim>; ++s) other_metric[s] = points_.lanes(metric + s, first);
+    for (std::size_t i = members.begin; i < members.end && (near & ~met) != 0; ++i) {
+      if constexpr (!Tensor) {
+        V distance2{};
+        for (int a = 0; a < Dim; ++a) {
+          const V dx = points_(x + a, i) - place[a];
+          distance2 += dx * dx;
         }
+        const V reach = simd::max(simd::all<V>(points_(support, i)), points_.lanes(support, first)) +
+                        points_(margin, i) + other_margin;
+        met |= simd::lanes_less(distance2, V(reach * reach));
+      } else {
+        // |H x| grows by at most |H| times the margin while the lists are in use.
+        V dx[Dim], own_eta2{}, other_eta2{};
+        for (int a = 0; a < Dim; ++a) dx[a] = points_(x + a, i) - place[a];
+        for (int a = 0, s = Dim; a < Dim; ++a) {
+          own_eta2 += points_(metric + a, i) * dx[a] * dx[a];
+          other_eta2 += other_metric[a] * dx[a] * dx[a];
+          for (int b = a + 1; b < Dim; ++b, ++s) {
+            own_eta2 += 2 * points_(metric + s, i) * dx[a] * dx[b];
+            other_eta2 += 2 * other_metric[s] * dx[a] * dx[b];
+          }
+        }
+        const V widening = points_(margin, i) + other_margin;
+        const V own_reach = support_per_h_ + widening * points_(per_length, i),
+                other_reach = support_per_h_ + widening * points_.lanes(per_length, first);
+        met |= simd::lanes_less(own_eta2, V(own_reach * own_reach)) |
+               simd::lanes_less(other_eta2, V(other_reach * other_reach));
       }
-      const simd::Doubles widening = margin[g] + q.margin;
-      const simd::Doubles own_reach = support_per_h_ + widening * per_length[g],
-                          other_reach = support_per_h_ + widening * e.per_length;
-      if (simd::any_less(own_eta2, own_reach * own_reach) || simd::any_less(other_eta2, other_reach * other_reach))
-        return true;
     }
-    return false;
+    return met & near;
   };
-  auto descend = [&](auto&& self, std::size_t level, std::size_t node) -> void {
-    if (!near_node(levels_[level][node])) return;
-    if (level > 0) {
-      const std::size_t end = std::min((node + 1) * fan_out, levels_[level - 1].size());
-      for (std::size_t k = node * fan_out; k < end; ++k) self(self, level - 1, k);
-      return;
+  const auto first_bits = [](std::size_t count) { return count >= lanes ? (1u << lanes) - 1 : (1u << count) - 1; };
+  const auto take_leaf = [&](std::size_t leaf) {
+    for (std::size_t first = leaves_[leaf].begin; first < leaves_[leaf].end; first += lanes) {
+      unsigned bits = first_bits(leaves_[leaf].end - first) & near_box(points_, first, x, x, extent, support, margin);
+      if (bits != 0) bits = near_members(first, bits);
+      append(found, bits, static_cast<std::uint32_t>(first));
     }
-    for (std::uint32_t j = leaves_[node].begin; j < leaves_[node].end; ++j)
-      if (tensor ? ellipsoids_meet(points_[j], ellipsoids_[j]) : near_any_member(points_[j])) found.push_back(j);
   };
-  for (std::size_t k = 0; k < levels_.back().size(); ++k) descend(descend, levels_.size() - 1, k);
+  const auto descend = [&](auto&& self, std::size_t l, std::size_t begin, std::size_t end) -> void {
+    for (std::size_t first = begin; first < end; first += lanes)
+      for (unsigned near = first_bits(end - first) &
+                           near_box(levels_[l], first, low, high, largest_extent, largest_support, largest_margin);
+           near != 0; near &= near - 1) {
+        const std::size_t node = first + static_cast<std::size_t>(std::countr_zero(near));
+        if (l == 0)
+          take_leaf(node);
+        else
+          self(self, l - 1, node * fan_out, std::min((node + 1) * fan_out, levels_[l - 1].count));
+      }
+  };
+  descend(descend, levels_.size() - 1, 0, levels_.back().count);
 }
 
 template <int Dim>
 bool PairLists<Dim>::valid(const Particles<Dim>& particles, double elapsed) const {
-  if (built_for_ != particles.size()) return false;
-  // Margin less motion and growth.
-  const auto slack = [&](const Particles<Dim>& owner, std::size_t i, std::size_t place) {
-    const Point& p = points_[place];
-    double moved2 = 0;
-    for (int a = 0; a < Dim; ++a) {
-      const double d = owner.column(Field::position, a)[i] - p.x[a] - drift_[a] * elapsed;
-      moved2 += d * d;
-    }
-    double grown = 0;
-    if (ellipsoids_.empty()) {
-      grown =
-          std::max(0.0, support_per_h_ * owner.column(Field::smoothing_length)[i] * stretch_of(owner, i) - p.support);
-    } else {
-      Symmetric<Dim> then;
-      for (int k = 0; k < symmetric_size<Dim>; ++k) then[k] = ellipsoids_[place].metric[k];
-      const double stretch = stretch_of(owner, i);
-      const double out = outgrowth<Dim>(matrix_of<Dim>(then),
-                                        Mat<Dim>(owner.symmetric(Field::smoothing_metric, i) / (stretch * stretch)));
-      grown = (out - 1) * support_per_h_ / ellipsoids_[place].per_length;
-    }
-    return p.margin - std::sqrt(moved2) - grown;
-  };
   const std::size_t n = particles.size();
-  if (parallel_min(n, 0.0, [&](std::size_t i) { return slack(particles, i, i); }).index != n) return false;
+  if (built_for_ != n) return false;
+  const auto overrun = [&](std::size_t i) { return slack(i, particles, i, elapsed); };
+  if (parallel_min(n, 0.0, overrun).index != n) return false;
   for (std::size_t k = 0; k < ghosts_.size(); ++k) {
     const Ghost& ghost = ghosts_.ghosts[k];
-    if (ghost.owner != 0 && ghost.transform == 0 && slack(ghosts_.owner(ghost, particles), ghost.source, n + k) < 0)
-      return false;
+    if (ghost.owner == 0 || ghost.transform != 0) continue;
+    if (slack(n + k, ghosts_.owner(ghost, particles), ghost.source, elapsed) < 0) return false;
   }
   return true;
+}
+
+template <int Dim>
+double PairLists<Dim>::slack(std::size_t place, const Particles<Dim>& owner, std::size_t i, double elapsed) const {
+  double moved2 = 0;
+  for (int a = 0; a < Dim; ++a) {
+    const double d = owner.column(Field::position, a)[i] - points_(x + a, place) - drift_[a] * elapsed;
+    moved2 += d * d;
+  }
+  double grown = 0;
+  if (!tensor_) {
+    const double now = support_per_h_ * owner.column(Field::smoothing_length)[i] * stretch_of(owner, i);
+    grown = std::max(0.0, now - points_(support, place));
+  } else {
+    Symmetric<Dim> then;
+    for (int k = 0; k < symmetric_size<Dim>; ++k) then[k] = points_(metric + k, place);
+    const double stretch = stretch_of(owner, i);
+    const double out = outgrowth<Dim>(matrix_of<Dim>(then),
+                                      Mat<Dim>(owner.symmetric(Field::smoothing_metric, i) / (stretch * stretch)));
+    grown = (out - 1) * support_per_h_ / points_(per_length, place);
+  }
+  return points_(margin, place) - std::sqrt(moved2) - grown;
 }
 
 template <int Dim>
@@ -282,10 +302,25 @@ double PairLists<Dim>::mean_candidates() const {
 
 template <int Dim>
 std::size_t PairLists<Dim>::bytes() const {
-  std::size_t total = points_.capacity() * sizeof(Point) + ellipsoids_.capacity() * sizeof(Ellipsoid) +
-                      ghosts_.bytes() + (clusters_.capacity() + leaves_.capacity()) * sizeof(Cluster);
-  for (const auto& level : levels_) total += level.capacity() * sizeof(Node);
+  std::size_t total = points_.bytes() + ghosts_.bytes() + (clusters_.capacity() + leaves_.capacity()) * sizeof(Cluster);
+  for (const auto& level : levels_) total += level.bytes();
   for (const auto& list : block_lists_) total += list.capacity() * sizeof(std::uint32_t);
+  return total;
+}
+
+template <int Dim>
+template <int Columns>
+simd::Doubles PairLists<Dim>::Table<Columns>::lanes(int column, std::size_t first) const {
+  simd::Doubles values;
+  std::memcpy(&values, &columns[static_cast<std::size_t>(column)][first], sizeof values);
+  return values;
+}
+
+template <int Dim>
+template <int Columns>
+std::size_t PairLists<Dim>::Table<Columns>::bytes() const {
+  std::size_t total = 0;
+  for (const auto& column : columns) total += column.capacity() * sizeof(double);
   return total;
 }
 

@@ -208,17 +208,19 @@ void PairRecord<T, Dim, Kind, Flux>::pack(const Particles<Dim>& particles, const
   using Filler = record_detail::Filler<T, Dim, Kind, Flux>;
   const std::size_t n = particles.size(), needed = (n + ghosts.size()) * size;
   if (records.size() < needed) records.resize(needed + needed / 8);
-  std::vector<Filler> fillers{Filler(particles, rules, scales)};  // by owner
-  for (const Particles<Dim>* guest : ghosts.guests) fillers.emplace_back(*guest, rules, scales);
-  parallel_for(0, n, [&](std::size_t i) { fillers[0].fill(i, records.data() + i * size); });
+  const Filler own(particles, rules, scales);
+  std::vector<Filler> guests;
+  for (const Particles<Dim>* guest : ghosts.guests) guests.emplace_back(*guest, rules, scales);
+  parallel_for(0, n, [&](std::size_t i) { own.fill(i, records.data() + i * size); });
   for (std::size_t k = 0; k < ghosts.size(); ++k) {
     const Ghost& ghost = ghosts.ghosts[k];
+    const Filler& owner = ghost.owner == 0 ? own : guests[ghost.owner - 1u];
     T* r = records.data() + (n + k) * size;
     if (ghost.owner == 0)
       std::copy_n(records.data() + ghost.source * size, size, r);
     else
-      fillers[ghost.owner].fill(ghost.source, r);
-    fillers[ghost.owner].transform(ghost.source, ghosts.transform(ghost), r);
+      owner.fill(ghost.source, r);
+    owner.transform(ghost.source, ghosts.transform(ghost), r);
   }
 }
 
@@ -257,8 +259,9 @@ void PairRecord<T, Dim, Kind, Flux>::pack_stress(const Particles<Dim>& particles
                                                  std::vector<T>& records, std::vector<T>& contacts) {
   using StressOf = record_detail::StressOf<Dim, Kind>;
   const std::size_t n = particles.size();
-  std::vector<StressOf> stress_of{StressOf(particles, rules)};  // by owner
-  for (const Particles<Dim>* guest : ghosts.guests) stress_of.emplace_back(*guest, rules);
+  const StressOf own_stress(particles, rules);
+  std::vector<StressOf> guests;
+  for (const Particles<Dim>* guest : ghosts.guests) guests.emplace_back(*guest, rules);
   /// of(sigma) gives what acts on own neighbours, and on other pieces.
   const auto fill = [&](const StressOf& source, std::size_t i, std::size_t place, const auto& of) {
     T* r = records.data() + place * size;
@@ -277,7 +280,7 @@ void PairRecord<T, Dim, Kind, Flux>::pack_stress(const Particles<Dim>& particles
     }
   };
   parallel_for(0, n, [&](std::size_t i) {
-    fill(stress_of[0], i, i, [&](const Mat<Dim>& sigma) { return record_detail::corrected<Dim>(sigma, around, i); });
+    fill(own_stress, i, i, [&](const Mat<Dim>& sigma) { return record_detail::corrected<Dim>(sigma, around, i); });
   });
   for (std::size_t k = 0; k < ghosts.size(); ++k) {
     const Ghost& ghost = ghosts.ghosts[k];
@@ -287,7 +290,7 @@ void PairRecord<T, Dim, Kind, Flux>::pack_stress(const Particles<Dim>& particles
       std::copy_n(records.data() + ghost.source * size + stress, stresses, r);
       if (t) std::copy_n(contacts.data() + ghost.source * contact_size + press, stresses, t);
     } else {
-      fill(stress_of[ghost.owner], ghost.source, n + k, [](const Mat<Dim>& sigma) {
+      fill(guests[ghost.owner - 1u], ghost.source, n + k, [](const Mat<Dim>& sigma) {
         return ContactStress<Dim>{sigma, std::min(0.0, sigma.trace() / Dim) * Mat<Dim>::Identity()};
       });
     }
