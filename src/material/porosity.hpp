@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/cube_root.hpp"
 #include "material/crush_curve.hpp"
 #include "material/eos_point.hpp"
 #include "scene/choices.hpp"
@@ -79,10 +80,10 @@ inline double porous_sound_speed(const Porosity& porosity, double solid_speed, d
 /// Being a function of alpha, it needs no integration in time and cannot drift.
 inline double pore_damage(double alpha, double alpha0) {
   if (alpha >= alpha0) return 0;
-  constexpr double delta = 0.01;
-  const double u = (alpha0 - alpha) / (alpha0 - 1), offset = std::cbrt(delta);
-  const double crack = (std::cbrt(u + delta) - offset) / (std::cbrt(1 + delta) - offset);
-  return crack * crack * crack;
+  constexpr double delta = 0.01, root_of_delta = 0.21544346900318837, root_of_all = 1.0033222835420892;
+  const double u = (alpha0 - alpha) / (alpha0 - 1);
+  const double length = std::max(0.0, cube_root(u + delta) - root_of_delta) * (1 / (root_of_all - root_of_delta));
+  return length * length * length;
 }
 
 }  // namespace ejecta

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/cube_root.hpp"
 #include "scene/choices.hpp"
 
 namespace ejecta {
@@ -17,7 +18,7 @@ class SupportSize {
   /// Effective n_h of a particle whose sum over neighbours is `zeroth_moment`. With no neighbours: half the target.
   double effective_nodes_per_h(double zeroth_moment) const {
     if (!(zeroth_moment > 0)) return 0.5 * target_;
-    const double psi0 = dim_ == 2 ? std::sqrt(zeroth_moment) : std::cbrt(zeroth_moment);
+    const double psi0 = dim_ == 2 ? std::sqrt(zeroth_moment) : cube_root(zeroth_moment);
     const double place = psi0 * per_psi0_;
     const auto k = static_cast<std::size_t>(place);
     if (k + 1 >= nodes_.size()) return nodes_.back() * place / static_cast<double>(nodes_.size() - 1);
