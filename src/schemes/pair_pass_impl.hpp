@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "base/flush_denormals.hpp"
 #include "base/parallel.hpp"
 #include "schemes/contact.hpp"
 #include "schemes/gradient_correction.hpp"
@@ -92,6 +93,7 @@ class PairPassOf final : public PairPass<Dim> {
   template <class Body>
   void for_clusters(const PairLists<Dim>& lists, Body&& body) const {
     parallel_blocks(lists.clusters().size(), 16, [&](std::size_t begin, std::size_t end) {
+      [[maybe_unused]] const std::conditional_t<R::split, FlushDenormals, std::false_type> flush{};
       for (std::size_t k = begin; k < end; ++k) body(k);
     });
   }
