@@ -80,6 +80,7 @@ inline double porous_sound_speed(const Porosity& porosity, double solid_speed, d
 /// Being a function of alpha, it needs no integration in time and cannot drift.
 inline double pore_damage(double alpha, double alpha0) {
   if (alpha >= alpha0) return 0;
+  if (alpha <= 1) return 1;  // to the last bit: what is broken is left alone
   constexpr double delta = 0.01, root_of_delta = 0.21544346900318837, root_of_all = 1.0033222835420892;
   const double u = (alpha0 - alpha) / (alpha0 - 1);
   const double length = std::max(0.0, cube_root(u + delta) - root_of_delta) * (1 / (root_of_all - root_of_delta));
