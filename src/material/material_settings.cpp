@@ -34,6 +34,7 @@ const std::array<Named<Strength>, 6> strength_models{{{"von_mises", VonMises{}},
 template <std::size_t N, class Model>
 std::vector<std::string> words(const std::array<Named<Model>, N>& models) {
   std::vector<std::string> names;
+  names.reserve(N);
   for (const auto& model : models) names.emplace_back(model.name);
   return names;
 }
@@ -282,9 +283,9 @@ void choose_models(MaterialSettings& settings, Document& document, Problems& pro
 }
 
 void describe(Describer& d, MaterialSettings& s) {
-  const auto section = [&](std::string name, std::string_view what, const std::string& model,
+  const auto section = [&](const std::string& name, std::string_view what, const std::string& model,
                            const std::vector<std::string>& known, std::string doc) {
-    d.section(std::move(name), fmt::format("{}: {}", what, model));
+    d.section(name, fmt::format("{}: {}", what, model));
     d.chosen("model", model, known, std::move(doc)).required = model != "none";
   };
   section("eos", "equation of state", word_of(s.eos, eos_models), words(eos_models), "the constants depend on it");

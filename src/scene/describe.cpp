@@ -79,7 +79,7 @@ void describe(Describer& d, Boundary& b) {
   for (std::size_t k = 0; k < axes.size(); ++k) {
     BoundaryKind &lower = b.lower[k], &upper = b.upper[k];
     // Echoed once where both are alike, face by face where they are not.
-    const auto echoed_if = [&](bool alike, std::function<std::string()> word) {
+    const auto echoed_if = [&](bool alike, const std::function<std::string()>& word) {
       return [&lower, &upper, alike, word] { return (lower == upper) == alike ? word() : ""; };
     };
     Choice& both = std::get<Choice>(d.choice(axes[k], lower, fmt::format("the two faces across {}", axes[k])).target);
@@ -162,9 +162,9 @@ void describe(Describer& d, Scene& s, const std::vector<SceneSection>& sections)
   describe(d, s.boundary);
   d.section("contact", "bodies and walls that touch: they press and part, and slide or rub");
   describe(d, s.contact);
-  for (const auto& [name, settings] : s.sections) {
-    const auto about = std::ranges::find(sections, name, &SceneSection::name);
-    d.section(name, about == sections.end() ? "" : about->doc, [&] { settings->describe(d); });
+  for (const auto& section : s.sections) {
+    const auto about = std::ranges::find(sections, section.first, &SceneSection::name);
+    d.section(section.first, about == sections.end() ? "" : about->doc, [&] { section.second->describe(d); });
   }
   d.section("insitu", "pictures while the run goes on", [&] { describe(d, s.insitu); });
   d.section("fragments", "connected pieces and their masses");

@@ -102,8 +102,8 @@ class Describer {
   Setting& flag(std::string key, bool& value, std::string doc);
   /// A whole number: int, std::int64_t or a std::optional of either.
   template <class Integer>
-  Setting& integer(std::string key, Integer& value, Limits limits, std::string doc) {
-    return add(std::move(key), &value, "1", limits, std::move(doc));
+  Setting& integer(const std::string& key, Integer& value, Limits limits, const std::string& doc) {
+    return add(key, &value, "1", limits, doc);
   }
   Setting& integer(std::string key, std::uint64_t& value, std::string doc);
   Setting& text(std::string key, std::string& value, std::string doc);

@@ -104,7 +104,7 @@ std::string with_numbers(const Document& document, std::string path) {
       const std::string element = fmt::format("{}[{}]", list, k);
       const std::optional<std::string> name = name_of_element(document, element);
       if (asked == element || (name && asked == list + "." + *name)) found = element;
-      known += (known.empty() ? "" : ", ") + (name ? '"' + *name + '"' : element);
+      known += fmt::format("{}{}", known.empty() ? "" : ", ", name ? fmt::format("\"{}\"", *name) : element);
     }
     if (found.empty() || dot == std::string::npos)
       throw InputError(fmt::format("--set {}: expected one of the {} {}", path, list, known));
