@@ -33,8 +33,6 @@ void Describer::origin(std::string& text) const {
   if (document_) text = document_->origin(place_.section).text;
 }
 
-std::string Describer::element(const std::string& list, std::size_t k) { return fmt::format("{}[{}]", list, k); }
-
 std::string Describer::path_of(const std::string& name) const {
   return place_.around.empty() ? name : place_.around + "." + name;
 }

@@ -80,7 +80,7 @@ class Describer {
   template <class T, class Describe>
   void list(const std::string& name, std::vector<T>& things, bool needed, const std::string& doc, Describe&& describe) {
     things.resize(length_of_list(name, needed, things.size()));
-    for (std::size_t k = 0; k < things.size(); ++k) section(element(name, k), doc, [&] { describe(things[k]); });
+    for (std::size_t k = 0; k < things.size(); ++k) section(element_path(name, k), doc, [&] { describe(things[k]); });
   }
 
   /// [name]: a map of things, described one by one with describe(key, thing). In the reference the key is `any_key`.
@@ -137,7 +137,6 @@ class Describer {
     std::string around;   ///< path of the section or thing in whose describe() we are
     std::string section;  ///< path of the section that settings are added to
   };
-  static std::string element(const std::string& list, std::size_t k);
   std::string path_of(const std::string& name) const;
   std::size_t length_of_list(const std::string& name, bool needed, std::size_t present);
   std::vector<std::string> keys_of_map(const std::string& name, const std::string& any_key) const;

@@ -14,6 +14,8 @@
 
 namespace ejecta {
 
+std::string element_path(const std::string& list, std::size_t k) { return fmt::format("{}[{}]", list, k); }
+
 namespace {
 
 /// Nothing for what settings never hold: dates and times, and tables inside lists of values.
@@ -71,7 +73,7 @@ void flatten(const toml::table& table, const std::string& path, Document& docume
       flatten(*inner, here, document, problems, depth + 1);
     } else if (const toml::array* array = node.as_array(); array && !array->empty() && array->is_array_of_tables()) {
       for (std::size_t k = 0; k < array->size(); ++k) {
-        const std::string element = fmt::format("{}[{}]", here, k);
+        const std::string element = element_path(here, k);
         document.tables[element] = origin_of(*array->get(k));
         flatten(*array->get(k)->as_table(), element, document, problems, depth + 1);
       }
@@ -101,7 +103,7 @@ std::string with_numbers(const Document& document, std::string path) {
     const std::string asked = path.substr(0, dot);
     std::string found, known;
     for (std::size_t k = 0; k < count; ++k) {
-      const std::string element = fmt::format("{}[{}]", list, k);
+      const std::string element = element_path(list, k);
       const std::optional<std::string> name = name_of_element(document, element);
       if (asked == element || (name && asked == list + "." + *name)) found = element;
       known += fmt::format("{}{}", known.empty() ? "" : ", ", name ? fmt::format("\"{}\"", *name) : element);
@@ -155,7 +157,7 @@ bool Document::holds(const std::string& name) const { return tables.contains(nam
 
 std::size_t Document::count(const std::string& name) const {
   std::size_t n = 0;
-  while (tables.contains(fmt::format("{}[{}]", name, n))) ++n;
+  while (tables.contains(element_path(name, n))) ++n;
   return n;
 }
 

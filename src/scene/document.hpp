@@ -49,6 +49,9 @@ struct Document {
   Document below(const std::string& path) const;
 };
 
+/// Path of an element of a list: "bodies[1]".
+std::string element_path(const std::string& list, std::size_t k);
+
 /// "bodies[1].profile" -> "bodies.profile", as TOML writes it.
 std::string without_numbers(const std::string& path);
 
