@@ -59,7 +59,7 @@ GradientCorrection<Dim> gradient_correction(const Mat<Dim>& moment, double least
     return c;
   }
   const Eigen::JacobiSVD<Mat<Dim>> svd(moment, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Vec<Dim> s = svd.singularValues();
+  const auto& s = svd.singularValues();
   if (s[Dim - 1] >= least) {
     c.Q = inverse.transpose();
     return c;

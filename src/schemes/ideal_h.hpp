@@ -44,7 +44,7 @@ struct ShapeVote {
 template <int Dim, class V = simd::Doubles>
 class FirstShells {
  public:
-  static constexpr int lanes = sizeof(V) / sizeof(double);
+  static constexpr int lanes = std::is_same_v<V, double> ? 1 : simd::lanes<double>;
 
   /// `support`: radius of the kernel in units of h.
   FirstShells(double nodes_per_h, double support);

@@ -27,7 +27,7 @@ struct IsotropicSupport {
   V h, reach_reciprocal, slope_norm;  ///< of the lanes i
 
   template <class Load>
-  explicit IsotropicSupport(Load&& load)
+  explicit IsotropicSupport(const Load& load)
       : h(load(R::h)), reach_reciprocal(load(R::reach_reciprocal)), slope_norm(load(R::slope_norm)) {}
 
   struct Pair {
@@ -91,7 +91,7 @@ struct EllipsoidalSupport {
   V metric[symmetric_size<Dim>], slope_norm;  ///< of the lanes i
 
   template <class Load>
-  explicit EllipsoidalSupport(Load&& load) : slope_norm(load(R::slope_norm)) {
+  explicit EllipsoidalSupport(const Load& load) : slope_norm(load(R::slope_norm)) {
     for (int s = 0; s < symmetric_size<Dim>; ++s) metric[s] = load(R::metric + s);
   }
 
