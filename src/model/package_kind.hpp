@@ -13,11 +13,11 @@
 namespace ejecta {
 
 struct PackageKind {
-  /// What a scene says about it: there if the scene has this section, or always if the section has no name.
-  SceneSection section;
+  SceneSection section;                           ///< what a scene says about it; no name: nothing
   /// Throws InputError if the scene asks for what cannot be, SimulationError if the first evaluation fails.
   std::function<std::unique_ptr<Package>(const Scene&, const std::vector<Material>&)> set_up;
-  std::map<std::string, std::string> fields{};  ///< that its channels may show: name -> SI unit
+  std::map<std::string, std::string> fields{};     ///< that its channels may show: name -> SI unit
+  std::function<bool(const Scene&)> takes_part{};  ///< in a run; empty: if the scene has the section
 };
 
 /// All there are, in the order in which they advance. This is the one place that knows them: app/packages.cpp.

@@ -1,5 +1,5 @@
 #pragma once
-/// The shapes that a body may have. Their geometry is in sph/shape_geometry.hpp.
+/// The shapes that a body may have. Their geometry is in scene/shape_geometry.hpp.
 #include <array>
 #include <cstddef>
 #include <string_view>

@@ -95,6 +95,18 @@ void check_profile(const Scene& scene, const Body& body, const std::string& path
     report(path + ".pressure", "expected either pressure or specific_energy, got both");
 }
 
+/// A body that stands for [charge] or [gas].
+void check_implied(const Scene& scene, const Body& body, const Report& report) {
+  const bool grid = scene.numerics.scheme == SchemeKind::fvm;
+  if (body.name == Charge::name && !grid && is_set(scene.spacing) && 2 * body.radius < scene.spacing)
+    report("charge.radius", fmt::format("expected at least one particle across, got {} at a spacing of {}",
+                                        format_quantity(body.radius, "m"), format_quantity(scene.spacing, "m")));
+  if (body.name != Gas::name || grid) return;
+  for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dimension); ++a)
+    if (!is_set(body.size[a]))
+      return report("gas", "needs boundary.min and boundary.max along every axis, so that particles can fill the box");
+}
+
 void check_boundary(const Scene& scene, const Report& report) {
   constexpr std::array axes{"x", "y", "z"};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -132,7 +144,13 @@ void check_scene(const Scene& scene, const Document& document, Problems& problem
   std::set<std::string> names, used_materials;
   for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
     const Body& body = scene.bodies[k];
-    const std::string path = fmt::format("bodies[{}]", k);
+    if (body.implied) {
+      used_materials.insert(body.material);
+      names.insert(body.name);
+      check_implied(scene, body, report);
+      continue;
+    }
+    const std::string path = fmt::format("bodies[{}]", k - (scene.charge ? 1 : 0));  // as in the file
     check_name(path + ".name", body.name);
     check_name(path + ".material", body.material);
     if (!body.name.empty() && !names.insert(body.name).second)

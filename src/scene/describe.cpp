@@ -44,8 +44,24 @@ void describe(Describer& d, Body& b) {
   describe(d, b.profile);
 }
 
+void describe(Describer& d, Charge& c) {
+  d.triple("center", c.center, "m", "its centre");
+  d.number("radius", c.radius, "m", positive, "of the charge").required = true;
+  d.number("density", c.density, "kg/m^3", positive, "of the charge").required = true;
+  d.number("energy_per_length", c.energy_per_length, "J/m", positive, "in 2D: of a cylinder, as internal energy");
+  d.number("energy", c.energy, "J", positive, "in 3D: internal energy of the whole ball");
+  d.text("material", c.material, "else that of the gas around it");
+}
+
+void describe(Describer& d, Gas& g) {
+  d.text("material", g.material, "name of materials/<material>.toml");
+  d.number("gamma", g.gamma, "1", {.min = 1, .open_min = true}, "ratio of specific heats, in place of the material's own");
+  d.number("density", g.density, "kg/m^3", positive, "at the start; else the material's own");
+  d.number("pressure", g.pressure, "Pa", positive, "at the start").required = true;
+}
+
 void describe(Describer& d, Numerics& n) {
-  d.choice("scheme", n.scheme, "smoothing: sph, a length h; asph, a tensor H (ellipsoids)");
+  d.choice("scheme", n.scheme, "particles smoothed over a length h (sph) or a tensor H (asph, ellipsoids); fvm: finite volumes on a grid");
   d.choice("kernel", n.kernel, "smoothing kernel");
   d.choice("precision", n.precision, "of the pair passes; mixed: pair differences in float, sums and states in double");
   d.choice("density", n.density, "continuity for solids; summation for gases only");
@@ -140,6 +156,8 @@ void describe(Describer& d, OutputSettings& o) {
            "wall time between checkpoints, which begin at a tenth of it; 0: only at the end")
       .zero_is_unset = true;
   d.integer("snapshots", o.snapshots, non_negative, "full dumps, equally spaced in simulated time");
+  d.numbers("times", o.times, "s", positive,
+            "steps end there, with a frame, rows of the tables, a line-out of a grid and a full dump");
   d.flag("peaks", o.peaks, "particles remember peak pressure, peak energy, lowest density and where they come from");
 }
 
@@ -155,7 +173,10 @@ void describe(Describer& d, Scene& s, const std::vector<SceneSection>& sections)
   d.section("time", "how long");
   d.number("end", s.time_end, "s", positive, "simulated time at which the run ends").required = true;
   d.integer("max_steps", s.max_steps, non_negative, "ends the run earlier; 0: no limit").zero_is_unset = true;
-  d.list("bodies", s.bodies, true, "one body, filled with particles at set-up", [&](Body& body) { describe(d, body); });
+  const bool blast = s.charge || s.gas;
+  d.list("bodies", s.bodies, !blast, "one body, filled at set-up", [&](Body& body) { describe(d, body); });
+  if (s.charge) d.section("charge", "a ball (in 2D a disc) of hot dense gas: its blast is followed", [&] { describe(d, *s.charge); });
+  if (s.gas) d.section("gas", "fills the boundary box wherever no body is", [&] { describe(d, *s.gas); });
   d.section("numerics", "how the equations are solved");
   describe(d, s.numerics);
   d.section("boundary", "faces of a box around everything");

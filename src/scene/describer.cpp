@@ -73,6 +73,10 @@ Setting& Describer::text(std::string key, std::string& value, std::string doc) {
 Setting& Describer::texts(std::string key, std::vector<std::string>& values, std::string doc) {
   return add(std::move(key), &values, "", any_number, std::move(doc));
 }
+Setting& Describer::numbers(std::string key, std::vector<double>& values, std::string unit, Limits limits,
+                            std::string doc) {
+  return add(std::move(key), &values, std::move(unit), limits, std::move(doc));
+}
 Setting& Describer::chosen(std::string key, std::string word, std::vector<std::string> words, std::string doc) {
   Choice choice{std::move(words), [word = std::move(word)] { return word; }, [](std::size_t) {}};
   return add(std::move(key), std::move(choice), "", any_number, std::move(doc));

@@ -48,6 +48,12 @@ Formula::Formula(Formula&&) noexcept = default;
 Formula& Formula::operator=(Formula&&) noexcept = default;
 Formula::~Formula() = default;
 
+void refuse_value(const Body& body, const std::string& key, const std::string& expected, double value,
+                  const FormulaPoint& point) {
+  throw InputError(fmt::format("{}: bodies.{}.profile.{}: expected {}, got {} at ({:.6g}, {:.6g}, {:.6g}) m",
+                               body.origin, body.name, key, expected, value, point.x[0], point.x[1], point.x[2]));
+}
+
 double Formula::operator()(const FormulaPoint& point) const {
   *variables_ = {point.x[0], point.x[1], point.x[2], point.r, point.spacing};
   try {

@@ -1,8 +1,10 @@
 #pragma once
 /// Formulas in scene files: initial fields that are no constants.
+#include <cmath>
 #include <memory>
 #include <string>
 
+#include "base/types.hpp"
 #include "scene/scene.hpp"
 
 namespace mu {
@@ -37,5 +39,22 @@ class Formula {
   std::unique_ptr<Variables> variables_;  // the parser holds their addresses
   std::unique_ptr<mu::Parser> parser_;
 };
+
+/// A point x [m] of a body whose elements are `spacing` [m] apart.
+template <int Dim>
+FormulaPoint formula_point(const Body& body, const Vec<Dim>& x, double spacing) {
+  FormulaPoint point{.spacing = spacing};
+  double r2 = 0;
+  for (std::size_t a = 0; a < Dim; ++a) {
+    point.x[a] = x[static_cast<Eigen::Index>(a)];
+    r2 += (point.x[a] - body.center[a]) * (point.x[a] - body.center[a]);
+  }
+  point.r = std::sqrt(r2);
+  return point;
+}
+
+/// Throws InputError: what a formula of a body's profile gave at a point.
+[[noreturn]] void refuse_value(const Body& body, const std::string& key, const std::string& expected, double value,
+                               const FormulaPoint& point);
 
 }  // namespace ejecta

@@ -128,6 +128,17 @@ struct Assign {
     }
     *target = std::move(texts);
   }
+  void operator()(std::vector<double>* target) const {
+    const std::string expected = "a list, each " + with_limits(expected_quantity(setting.unit), setting.limits, setting.unit);
+    const auto* list = std::get_if<LiteralList>(&literal.value);
+    if (!list) refuse(expected, literal);
+    std::vector<double> values;
+    for (const Literal& element : *list) {
+      values.push_back(number_of(element, setting.unit));
+      if (!inside(values.back(), setting.limits)) refuse(expected, literal);
+    }
+    *target = std::move(values);
+  }
   void operator()(const Choice& choice) const {
     const auto* text = std::get_if<std::string>(&literal.value);
     const std::string flag = std::holds_alternative<bool>(literal.value) ? to_text(literal) : "";  // true, false, auto

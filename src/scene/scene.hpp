@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scene/blast.hpp"
 #include "scene/body_shape.hpp"
 #include "scene/boundary.hpp"
 #include "scene/choices.hpp"
@@ -16,7 +17,7 @@
 
 namespace ejecta {
 
-enum class SchemeKind { sph, asph };
+enum class SchemeKind { sph, asph, fvm };
 enum class DensityMethod { continuity, summation };
 enum class Lattice { cubic, hexagonal, glass };
 enum class OnError { continue_run, abort };
@@ -52,6 +53,7 @@ struct Body {
   bool driven = false;               ///< keeps its velocity whatever pulls at it, and never breaks
   double jitter = 0;                 ///< random displacement along each axis, up to this many spacings
   Profile profile;
+  bool implied = false;  ///< follows from [charge] or [gas], and is not echoed
 };
 
 /// Diameter, edges, length [m]: those that the shape of a body has, not a number where it is not set.
@@ -118,6 +120,7 @@ struct OutputSettings {
   double history_interval = unset;   ///< s of simulated time; default: end/200
   double checkpoint_interval = 600;  ///< s of wall time; not set: only at the end
   int snapshots = 0;                 ///< full HDF5 dumps, equally spaced in time; 0: none
+  std::vector<double> times;         ///< s; steps end there, with a frame, rows of the tables and a full dump
   bool peaks = false;                ///< particles remember their extremes and where they come from
 };
 
@@ -130,6 +133,8 @@ struct Scene {
   double time_end = unset;                ///< s
   std::optional<std::int64_t> max_steps;  ///< not set: no limit
   std::vector<Body> bodies;
+  std::optional<Charge> charge;  ///< among the bodies too
+  std::optional<Gas> gas;        ///< the last of the bodies too
   Numerics numerics;
   Boundary boundary;
   Contact contact;

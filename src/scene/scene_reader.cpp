@@ -70,6 +70,13 @@ void check_ranges(const Document& document, const std::map<std::string, std::str
   }
 }
 
+/// Whether numerics.scheme is this word: sections that come with a scheme have to be known before it is read.
+bool asks_for(const Document& document, const std::string& scheme) {
+  const auto item = document.items.find("numerics.scheme");
+  const auto* word = item == document.items.end() ? nullptr : std::get_if<std::string>(&item->second.literal.value);
+  return word && !scheme.empty() && *word == scheme;
+}
+
 Scene interpret(Document document, const std::vector<std::string>& overrides, const SceneContext& context) {
   Problems problems;
   for (const std::string& assignment : overrides) {
@@ -83,12 +90,16 @@ Scene interpret(Document document, const std::vector<std::string>& overrides, co
   scene.file = document.file;
   take_materials(document, scene, problems);
   for (const SceneSection& section : context.sections)
-    if (document.holds(section.name)) scene.sections[section.name] = section.settings();
+    if (document.holds(section.name) || asks_for(document, section.scheme))
+      scene.sections[section.name] = section.settings();
+  if (document.holds("charge")) scene.charge.emplace();
+  if (document.holds("gas")) scene.gas.emplace();
   Describer description(document);
   describe(description, scene, context.sections);
   read_settings(description, document, problems);
   if (!context.fields.empty()) check_ranges(document, context.fields, problems);
   find_pipelines(scene, document, problems);
+  add_blast(scene, document, problems);
   check_scene(scene, document, problems);
   problems.throw_if_any();
   return scene;
@@ -107,6 +118,7 @@ Scene parse_scene(const std::string& text, const std::string& name, const std::v
 
 std::string scene_toml(const Scene& scene) {
   Scene copy = scene;  // a description can also write, so it asks for values it may change
+  std::erase_if(copy.bodies, [](const Body& body) { return body.implied; });
   Describer description;
   describe(description, copy);
   return write_toml(description);
@@ -115,6 +127,8 @@ std::string scene_toml(const Scene& scene) {
 std::string scene_reference(std::string_view section, const std::vector<SceneSection>& sections) {
   Scene scene;
   for (const SceneSection& s : sections) scene.sections[s.name] = s.settings();
+  scene.charge.emplace();
+  scene.gas.emplace();
   Describer description = Describer::of_all_there_may_be();
   describe(description, scene, sections);
   return write_reference(description, section);

@@ -17,6 +17,7 @@ struct SectionSettings {
 struct SceneSection {
   std::string name, doc;  ///< "grid", "one sentence"
   std::function<std::shared_ptr<SectionSettings>()> settings;
+  std::string scheme{};  ///< word of numerics.scheme with which it is there even if nobody has written it
 };
 
 }  // namespace ejecta

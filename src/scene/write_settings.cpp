@@ -58,6 +58,11 @@ struct ToToml {
     for (const std::string& text : *texts) list += (list.empty() ? "" : ", ") + quoted(text);
     return "[" + list + "]";
   }
+  std::string operator()(const std::vector<double>* values) const {
+    std::string list;
+    for (const double value : *values) list += (list.empty() ? "" : ", ") + number_text(value, setting.unit);
+    return "[" + list + "]";
+  }
   std::string operator()(const Choice& choice) const {
     const std::string word = choice.get();
     if (word.empty()) return "";
@@ -87,6 +92,7 @@ struct Kind {
   std::string operator()(const bool*) const { return "true or false"; }
   std::string operator()(const std::string*) const { return "a text"; }
   std::string operator()(const std::vector<std::string>*) const { return "a list of texts"; }
+  std::string operator()(const std::vector<double>*) const { return with_limits("a list, each " + expected_quantity(setting.unit)); }
   std::string operator()(const Choice& choice) const { return fmt::format("{}", fmt::join(choice.words, " | ")); }
   template <class Integer>
   requires std::integral<Integer> std::string operator()(const Integer*) const { return with_limits("a whole number"); }

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "base/parallel.hpp"
-#include "sph/shape_geometry.hpp"
+#include "scene/shape_geometry.hpp"
 
 namespace ejecta {
 

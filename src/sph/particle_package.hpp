@@ -3,7 +3,7 @@
 
 namespace ejecta {
 
-/// The particles of the bodies: there in every scene.
+/// The particles of the bodies: numerics.scheme = "sph" or "asph".
 PackageKind particle_package();
 
 }  // namespace ejecta

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/errors.hpp"
@@ -14,24 +15,6 @@ std::uint64_t position_key(const Vec<Dim>& x, double spacing) {
   std::uint64_t key = 0x9e3779b97f4a7c15ull;
   for (int a = 0; a < Dim; ++a) key = mix_bits(key ^ static_cast<std::uint64_t>(std::llround(x[a] / spacing * 64)));
   return key;
-}
-
-template <int Dim>
-FormulaPoint formula_point(const Body& body, const Vec<Dim>& x, double spacing) {
-  FormulaPoint point{.spacing = spacing};
-  double r2 = 0;
-  for (std::size_t a = 0; a < Dim; ++a) {
-    point.x[a] = x[a];
-    r2 += (x[a] - body.center[a]) * (x[a] - body.center[a]);
-  }
-  point.r = std::sqrt(r2);
-  return point;
-}
-
-void refuse_value(const Body& body, const std::string& key, const std::string& expected, double value,
-                  const FormulaPoint& point) {
-  throw InputError(fmt::format("{}: bodies.{}.profile.{}: expected {}, got {} at ({:.6g}, {:.6g}, {:.6g}) m",
-                               body.origin, body.name, key, expected, value, point.x[0], point.x[1], point.x[2]));
 }
 
 namespace {
@@ -97,8 +80,13 @@ std::vector<Placement<Dim>> place_bodies(const Scene& scene, const std::vector<M
     const auto report = [&](const std::string& text) {
       problems.push_back(fmt::format("{}: bodies.{}: {}", body.origin, body.name, text));
     };
-    const auto placements =
+    auto placements =
         fill_body<Dim>(scene, b, materials[static_cast<std::size_t>(body_material[b])], body_material[b]);
+    if (body.name == Gas::name && body.implied)  // it yields to whatever is there
+      std::erase_if(placements, [&](const Placement<Dim>& s) {
+        return std::any_of(scene.bodies.begin(), scene.bodies.begin() + static_cast<std::ptrdiff_t>(b),
+                           [&](const Body& other) { return inside<Dim>(other, s.site); });
+      });
     if (placements.empty())
       report(fmt::format("expected room for at least one particle, got none at a spacing of {:.4g} m",
                          scene.spacing * body.spacing_factor));
@@ -121,7 +109,5 @@ template std::vector<Placement<2>> place_bodies<2>(const Scene&, const std::vect
 template std::vector<Placement<3>> place_bodies<3>(const Scene&, const std::vector<Material>&, const std::vector<int>&);
 template std::uint64_t position_key<2>(const Vec<2>&, double);
 template std::uint64_t position_key<3>(const Vec<3>&, double);
-template FormulaPoint formula_point<2>(const Body&, const Vec<2>&, double);
-template FormulaPoint formula_point<3>(const Body&, const Vec<3>&, double);
 
 }  // namespace ejecta

@@ -28,11 +28,4 @@ std::vector<Placement<Dim>> place_bodies(const Scene& scene, const std::vector<M
 template <int Dim>
 std::uint64_t position_key(const Vec<Dim>& site, double spacing);
 
-template <int Dim>
-FormulaPoint formula_point(const Body& body, const Vec<Dim>& x, double spacing);
-
-/// Throws InputError: what a formula of a body's profile gave at a point.
-[[noreturn]] void refuse_value(const Body& body, const std::string& key, const std::string& expected, double value,
-                               const FormulaPoint& point);
-
 }  // namespace ejecta

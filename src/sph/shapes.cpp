@@ -6,7 +6,7 @@
 
 #include "base/random.hpp"
 #include "sph/glass.hpp"
-#include "sph/shape_geometry.hpp"
+#include "scene/shape_geometry.hpp"
 
 namespace ejecta {
 
