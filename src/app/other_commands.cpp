@@ -19,7 +19,7 @@ namespace ejecta {
 namespace {
 
 /// A set-up of more than these is worth a word before.
-constexpr double many_particles = 1e6;
+constexpr double many_elements = 1e6;
 constexpr double steps_of_a_set_up = 5;
 
 }  // namespace
@@ -30,10 +30,11 @@ int check_command(const std::string& scene_file, const std::vector<std::string>&
   const Job job = read_job(scene_file, overrides);
   const Scene& scene = job.scene;
   const Materials& materials = job.materials;
-  const Estimate e = estimate(scene, materials.list);
-  if (e.particles > many_particles)
-    spdlog::info("setting up {:.3g} particles as a run does: as long as a few steps, about {}", e.particles,
-                 format_quantity(steps_of_a_set_up * e.seconds / e.steps, "s"));
+  const std::vector<Estimate> costs = estimates(scene, materials.list);
+  for (const Estimate& e : costs)
+    if (e.elements > many_elements)
+      spdlog::info("setting up {:.3g} {}s as a run does: as long as a few steps, about {}", e.elements, e.element,
+                   format_quantity(steps_of_a_set_up * e.seconds / e.steps, "s"));
   const auto start = std::chrono::steady_clock::now();
   const Simulation sim = set_up_simulation(scene, materials.list);
   const std::chrono::duration<double> set_up_time = std::chrono::steady_clock::now() - start;
@@ -41,12 +42,14 @@ int check_command(const std::string& scene_file, const std::vector<std::string>&
   fmt::print("set-up\n");
   for (const auto& package : sim.packages) fmt::print("  {:<18} {}\n", package->name(), package->elements());
   fmt::print("  time               {}\n", format_quantity(set_up_time.count(), "s"));
-  fmt::print("estimate\n");
-  fmt::print("  memory             {:.0f} bytes a particle, {:.3g} GB in all\n", e.bytes_per_particle,
-             e.particles * e.bytes_per_particle / 1e9);
-  fmt::print("  steps              {:.0f}, while nothing moves faster than sound at rest\n", e.steps);
-  fmt::print("  wall time          about {} on {} threads, without in-situ work\n", format_quantity(e.seconds, "s"),
-             scene.threads.value_or(available_cores()));
+  for (const Estimate& e : costs) {
+    fmt::print("estimate\n");
+    fmt::print("  memory             {:.0f} bytes a {}, {:.3g} GB in all\n", e.bytes_each, e.element,
+               e.elements * e.bytes_each / 1e9);
+    fmt::print("  steps              {:.0f}, while nothing is faster than at the start\n", e.steps);
+    fmt::print("  wall time          about {} on {} threads, without in-situ work\n", format_quantity(e.seconds, "s"),
+               scene.threads.value_or(available_cores()));
+  }
   return 0;
 }
 

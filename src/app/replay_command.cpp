@@ -14,15 +14,14 @@ namespace ejecta {
 
 namespace {
 
-template <int Dim>
-int replay_in(const Scene& scene, const Materials& materials, const Checkpoint& checkpoint,
+int replay(const Scene& scene, const Materials& materials, const Checkpoint& checkpoint,
               const std::filesystem::path& out) {
   Simulation sim = set_up_simulation(scene, materials.list);
   restore(sim, checkpoint);
   std::filesystem::create_directories(out);
-  Frames<Dim> frames(sim, package_of<Sph<Dim>>(sim), out, gl_works());
-  frames.observe(sim, true);
-  spdlog::info("{} images in {}", frames.images(), (out / "images").string());
+  const std::unique_ptr<Frames> frames = make_frames(sim, out, gl_works());
+  frames->observe(sim, true);
+  spdlog::info("{} images in {}", frames->images(), (out / "images").string());
   return 0;
 }
 
@@ -36,8 +35,7 @@ int replay_command(const std::string& folder, const std::string& out) {
   const Scene scene = parse_scene(checkpoint.scene, file->string(), {}, {package_sections(), {}});
   const Materials materials = read_materials(scene, material_library());
   const std::filesystem::path to = out.empty() ? run / "replay" : std::filesystem::path(out);
-  return scene.dimension == 2 ? replay_in<2>(scene, materials, checkpoint, to)
-                              : replay_in<3>(scene, materials, checkpoint, to);
+  return replay(scene, materials, checkpoint, to);
 }
 
 }  // namespace ejecta

@@ -7,18 +7,14 @@
 #include <vector>
 
 #include "base/timers.hpp"
-#include "material/material.hpp"
-#include "scene/scene.hpp"
+#include "model/package_kind.hpp"
 
 namespace ejecta {
 
 bool is_writable(const std::filesystem::path& folder);
 
-/// Expected costs of a scene, before any particle is made.
-struct Estimate {
-  double particles = 0, bytes_per_particle = 0, steps = 0, seconds = 0;
-};
-Estimate estimate(const Scene& scene, const std::vector<Material>& materials);
+/// Expected costs of what takes part in a scene, before any of it is made.
+std::vector<Estimate> estimates(const Scene& scene, const std::vector<Material>& materials);
 /// Throws InputError if the scene needs more memory than the machine has free.
 void check_memory(const Scene& scene, const std::vector<Material>& materials);
 

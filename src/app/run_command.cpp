@@ -18,6 +18,8 @@
 #include "observe/checkpoints.hpp"
 #include "observe/columns.hpp"
 #include "observe/frames.hpp"
+#include "observe/shocks.hpp"
+#include "observe/solvers.hpp"
 #include "observe/status.hpp"
 #include "observe/summarise.hpp"
 #include "observe/tables.hpp"
@@ -44,16 +46,17 @@ void prepare_folder(const Job& job) {
 }
 
 /// Everything that is written once, when the run is over for whatever reason.
-template <int Dim>
-void conclude(const Simulation& sim, const Sph<Dim>& sph, const FrameResults& frames, const Job& job, int exit_code) {
-  const FragmentContext context = fragment_context(sph);
+void conclude(const Simulation& sim, const Frames& frames, const Job& job, int exit_code) {
+  const FragmentContext context = fragment_context(sim);
   if (frames.fragments()) {
     write_fragments(job.folder / "fragments.csv", *frames.fragments(), context);
     write_fragment_distribution(job.folder / "fragment_distribution.csv", *frames.fragments(), context);
-    for (const FragmentSensitivity& s : fragment_sensitivity(fragment_input(sph), sph.scene.fragments))
-      spdlog::info("fragments at linking length {:.2f}: {}, largest {:.2f} %, dust {:.1f} % of the {}",
-                   s.linking_length, s.fragments, 100 * s.largest_mass_fraction, 100 * s.dust_mass_fraction,
-                   context.unit());
+    with_particles(sim, [&](const auto& sph) {
+      for (const FragmentSensitivity& s : fragment_sensitivity(fragment_input(sph), sph.scene.fragments))
+        spdlog::info("fragments at linking length {:.2f}: {}, largest {:.2f} %, dust {:.1f} % of the {}",
+                     s.linking_length, s.fragments, 100 * s.largest_mass_fraction, 100 * s.dust_mass_fraction,
+                     context.unit());
+    });
   }
   if (const int failed = frames.pipeline_failures(); failed > 0)
     spdlog::warn("in situ: {} calls of pipelines have failed; insitu.log says why", failed);
@@ -62,7 +65,7 @@ void conclude(const Simulation& sim, const Sph<Dim>& sph, const FrameResults& fr
       spdlog::log(remark.worrying ? spdlog::level::warn : spdlog::level::info, "{}", remark.text);
   FigureSettings figures;
   figures.title = sim.scene.title;
-  figures.fragment_target = context.bodies[context.target];
+  if (!context.bodies.empty()) figures.fragment_target = context.bodies[context.target];
   figures.resolution_limit = context.smallest;
   for (const Figure& figure : make_figures(job.folder, figures))
     if (!figure.problem.empty()) spdlog::warn("{}: {}", figure.file.filename().string(), figure.problem);
@@ -70,22 +73,20 @@ void conclude(const Simulation& sim, const Sph<Dim>& sph, const FrameResults& fr
     for (const std::string& problem : make_movies(job.folder).problems) spdlog::warn("movie: {}", problem);
   const std::vector<StageTimers::Entry> times = wall_times(sim);
   write_timers(job.folder / "timers.csv", times);
-  const Summary summary = summarise(sim, sph, frames, context, job.folder, exit_code);
+  const Summary summary = summarise(sim, frames, context, job.folder, exit_code);
   write_summary(job.folder / "summary.json", summary);
   // Everything is in the files: a terminal that has gone is no reason to fail.
   std::fputs((timer_table(times) + '\n' + summary_json(summary) + '\n').c_str(), stdout);
   spdlog::info("results in {}", job.folder.string());
 }
 
-template <int Dim>
-int run_in(const Job& job) {
+int run(const Job& job) {
   std::optional<Checkpoint> checkpoint;
   if (job.restart) {
     checkpoint = read_checkpoint(*latest_checkpoint(job.folder / "checkpoints"));
     check_same_scene(*checkpoint, job.resolved, job.scene.file);
   }
   Simulation sim = set_up_simulation(job.scene, job.materials.list);
-  const auto& sph = package_of<Sph<Dim>>(sim);
   if (checkpoint) restore(sim, *checkpoint);
   prepare_folder(job);
   if (job.scene.insitu.enabled && !job.catalyst)
@@ -94,26 +95,28 @@ int run_in(const Job& job) {
   if (checkpoint) {
     resume_at = sim.clock.time;
     spdlog::info("restarted from {} at t = {}", checkpoint->file.filename().string(), format_quantity(*resume_at, "s"));
-    checkpoint.reset();  // as large as the particles
+    checkpoint.reset();  // as large as the state
   }
-  Frames<Dim> frames(sim, sph, job.folder, job.catalyst);
-  if (job.restart) frames.resume();
-  const FragmentContext context = fragment_context(sph);
+  const std::unique_ptr<Frames> frames_of_solver = make_frames(sim, job.folder, job.catalyst);
+  Frames& frames = *frames_of_solver;
+  if (job.restart) frames.resume(sim);
+  const FragmentContext context = fragment_context(sim);
   Tables tables(job.scene, job.folder, frames, context, resume_at);
   Checkpoints checkpoints(job.folder, job.resolved, job.scene, sim.clock.time);
+  Shocks shocks(sim, job.folder, resume_at);
   Status status(sim, job.folder, frames, context);
   Progress progress;
   install_stop_signals();
   for (const auto& package : sim.packages)
     spdlog::info("{}: {} {} in {}D, {} threads, {:.0f} bytes each", job.scene.name, package->elements(), package->name(),
-                 Dim, max_threads(),
+                 job.scene.dimension, max_threads(),
                  static_cast<double>(package->bytes()) / static_cast<double>(package->elements()));
-  const std::vector<Observer*> observers{&frames, &tables, &checkpoints, &status, &progress};
+  const std::vector<Observer*> observers{&frames, &tables, &shocks, &checkpoints, &status, &progress};
   int code = exit_code::done;
   try {
     RunState state = RunState::finished;
     try {
-      if (!run(sim, observers, stop_requested)) {
+      if (!ejecta::run(sim, observers, stop_requested)) {
         spdlog::warn("stopped by a signal; --restart goes on from here");
         state = RunState::stopped;
         code = exit_code::stopped;
@@ -126,7 +129,7 @@ int run_in(const Job& job) {
       frames.observe(sim, true);
       tables.observe(sim, true);
     }
-    conclude(sim, sph, frames, job, code);
+    conclude(sim, frames, job, code);
     status.conclude(sim, state, code);
   } catch (...) {
     status.give_up(exit_code::failed);
@@ -144,7 +147,7 @@ int run_command(const RunOptions& options) {
   job.overwrite = options.overwrite;
   check_run_folder(options, job.folder);
   job.catalyst = job.scene.insitu.enabled && gl_works();
-  return job.scene.dimension == 2 ? run_in<2>(job) : run_in<3>(job);
+  return run(job);
 }
 
 }  // namespace ejecta

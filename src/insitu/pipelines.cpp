@@ -54,21 +54,22 @@ std::string syntax_problem(const std::string& path) {
 
 }  // namespace
 
-std::vector<std::string> default_pipelines(bool fragments) {
+std::vector<std::string> default_pipelines(const Scene& scene) {
   const std::filesystem::path folder = data_folder() / "catalyst_scripts";
-  std::vector<std::string> scripts{folder / "slice.py", folder / "cutaway.py"};
-  if (fragments) scripts.push_back(folder / "fragments.py");
+  std::vector<std::string> scripts{folder / "slice.py"};
+  if (scene.numerics.scheme != SchemeKind::fvm) scripts.push_back(folder / "cutaway.py");
+  if (scene.fragments.enabled) scripts.push_back(folder / "fragments.py");
   return scripts;
 }
 
-std::vector<std::string> pipeline_scripts(const std::vector<std::string>& names, bool fragments) {
-  if (names.empty()) return default_pipelines(fragments);
+std::vector<std::string> pipeline_scripts(const Scene& scene) {
+  if (scene.insitu.pipelines.empty()) return default_pipelines(scene);
   std::vector<std::string> scripts;
-  for (const std::string& name : names) {
+  for (const std::string& name : scene.insitu.pipelines) {
     if (name != default_pipelines_name) {
       scripts.push_back(name);
     } else {
-      for (std::string& script : default_pipelines(fragments)) scripts.push_back(std::move(script));
+      for (std::string& script : default_pipelines(scene)) scripts.push_back(std::move(script));
     }
   }
   return scripts;

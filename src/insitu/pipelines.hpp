@@ -32,14 +32,15 @@ struct PipelineSettings {
 };
 
 /// Names of the channels, by which scripts register the sources that read them.
-inline constexpr std::array channel_names{"particles", "slice", "ellipsoids", "fragments"};
+inline constexpr std::array channel_names{"particles", "slice", "ellipsoids", "fragments", "grid"};
 
-/// Absolute paths of the scripts drawn by default: slice, cutaway and, where fragments are followed, fragments.
-std::vector<std::string> default_pipelines(bool fragments);
+/// Absolute paths of the scripts drawn by default: slice, of particles also cutaway and, where fragments are followed,
+/// fragments.
+std::vector<std::string> default_pipelines(const Scene& scene);
 
-/// The scripts of a scene: `names` with "default" replaced by the default ones, which are also what an empty list
-/// means.
-std::vector<std::string> pipeline_scripts(const std::vector<std::string>& names, bool fragments);
+/// The scripts of a scene: insitu.pipelines, with "default" replaced by the default ones, which are also what an empty
+/// list means.
+std::vector<std::string> pipeline_scripts(const Scene& scene);
 
 /// Compiles each script without running it. Throws InputError naming file and line of every script that is missing or
 /// has a syntax error.

@@ -67,7 +67,10 @@ class Package {
   virtual std::string describe(std::size_t culprit) const = 0;
   /// Where a culprit belongs, in a word or two, for the line of progress; may be empty.
   virtual std::string whereabouts(std::size_t) const { return ""; }
-  virtual std::size_t elements() const = 0;  ///< particles, cells, ...
+  virtual std::string_view element() const { return "element"; }  ///< what it is made of: "particle", "cell"
+  virtual std::size_t elements() const = 0;                       ///< how many
+  /// Steps of single elements so far: what the speed is counted in.
+  virtual double element_steps() const { return static_cast<double>(elements()) * static_cast<double>(clock.step); }
   virtual std::size_t bytes() const = 0;     ///< memory
 
   Clock clock;

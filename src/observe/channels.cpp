@@ -57,16 +57,20 @@ Channel FrameChannels<Dim>::fragments(const FragmentTable& table, std::size_t ta
   return channel;
 }
 
+Channel slice_channel(const SampledImage& image, int dimension, double plane_y) {
+  Channel channel = image_channel(image, "slice");
+  if (dimension == 3) {  // the picture plane is x-z in space
+    channel.extent = {channel.extent[0], 1, channel.extent[1]};
+    channel.origin = {channel.origin[0], plane_y, channel.origin[1]};
+    channel.spacing = {channel.spacing[0], 1, channel.spacing[1]};
+  }
+  return channel;
+}
+
 template <int Dim>
 Channel FrameChannels<Dim>::slice(const Particles<Dim>& p, Kernel kernel, const PixelGrid& grid, double plane_y) {
   slice_ = make_slice(p, kernel, grid, plane_y);
-  Channel image = image_channel(slice_, "slice");
-  if (Dim == 3) {  // the picture plane is x-z in space
-    image.extent = {image.extent[0], 1, image.extent[1]};
-    image.origin = {image.origin[0], plane_y, image.origin[1]};
-    image.spacing = {image.spacing[0], 1, image.spacing[1]};
-  }
-  return image;
+  return slice_channel(slice_, Dim, plane_y);
 }
 
 template <int Dim>

@@ -13,6 +13,9 @@
 
 namespace ejecta {
 
+/// The slice in the plane y = plane_y [m] (in 2D that of the scene) as the channel of that name. Valid while `image` lives.
+Channel slice_channel(const SampledImage& image, int dimension, double plane_y);
+
 /// Makes the channels of a frame, each on its own. They point into what they are made of and into this object, which
 /// keeps the derived columns until the same channel is made again.
 template <int Dim>

@@ -85,14 +85,15 @@ Checkpoints::Checkpoints(std::filesystem::path folder, std::string resolved, con
       wait_(scene.output.checkpoint_interval * first_wait),
       snapshot_interval_(scene.output.snapshots > 0 ? scene.time_end / scene.output.snapshots
                                                     : std::numeric_limits<double>::infinity()),
-      next_snapshot_(snapshot_interval_) {
+      next_snapshot_(snapshot_interval_),
+      times_(scene.output.times) {
   pass_snapshots(time);
 }
 
 bool Checkpoints::pass_snapshots(double time) {
   bool passed = false;
   for (; time >= next_snapshot_ * (1 - 1e-12); next_snapshot_ += snapshot_interval_) passed = true;
-  return passed;
+  return times_.pass(time) || passed;
 }
 
 void Checkpoints::observe(Simulation& sim, bool last) {

@@ -1,8 +1,10 @@
 #pragma once
 /// Checkpoints that a run can go on from bit for bit, and full snapshots on request.
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 
+#include "observe/schedule.hpp"
 #include "output/checkpoint.hpp"
 #include "simulation/simulation.hpp"
 
@@ -27,7 +29,7 @@ class Checkpoints final : public Observer {
  public:
   /// `time`: where the run begins or goes on [s].
   Checkpoints(std::filesystem::path folder, std::string resolved, const Scene& scene, double time);
-  double next_time() const override { return next_snapshot_; }
+  double next_time() const override { return std::min(next_snapshot_, times_.next()); }
   void observe(Simulation& sim, bool last) override;
   /// The state of a failed step, for a look at it: checkpoints/failed_<step>.h5.
   void write_failed(const Simulation& sim) const;
@@ -39,6 +41,7 @@ class Checkpoints final : public Observer {
   clock::time_point written_ = clock::now();
   double wait_;  ///< wall time until the next checkpoint [s]
   double snapshot_interval_, next_snapshot_;
+  OutputTimes times_;
 
   /// Whether a snapshot is due at this time [s]; the next one then comes later.
   bool pass_snapshots(double time);

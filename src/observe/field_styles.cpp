@@ -8,19 +8,6 @@ namespace ejecta {
 
 namespace {
 
-/// Largest values to be expected in a run [SI].
-struct Extremes {
-  double pressure, density, speed, distension, aspect;
-};
-
-Extremes extremes(const Scene& scene, const std::vector<Material>& materials, const Outset& outset) {
-  double distension = 1.01;
-  for (const Material& m : materials)
-    if (m.porosity) distension = std::max(distension, m.porosity->initial_distension());
-  const double speed = outset.speed > 0 ? outset.speed : std::sqrt(outset.pressure / outset.density);
-  return {outset.pressure, outset.density, speed, distension, std::clamp(scene.numerics.largest_aspect, 1.5, 4.0)};
-}
-
 struct Row {
   const char *field, *label;
   ColourMap map;
@@ -56,6 +43,10 @@ const Row table[] = {
      [](const Extremes& e) -> ColourRange {
        return {1, e.aspect};
      }},
+    {"mach", "Mach number", viridis,
+     [](const Extremes& e) -> ColourRange {
+       return {0, e.mach};
+     }},
     {"damage", "damage", plasma, unit_range},
     {"damage_1", "largest damage", plasma, unit_range},
     {"damage_2", "damage 2", plasma, unit_range},
@@ -64,9 +55,15 @@ const Row table[] = {
 
 }  // namespace
 
-std::map<std::string, FieldStyle> field_styles(const Scene& scene, const std::vector<Material>& materials,
-                                               const Outset& outset) {
-  const Extremes expected = extremes(scene, materials, outset);
+Extremes extremes(const Scene& scene, const std::vector<Material>& materials, const Outset& outset) {
+  double distension = 1.01;
+  for (const Material& m : materials)
+    if (m.porosity) distension = std::max(distension, m.porosity->initial_distension());
+  const double speed = outset.speed > 0 ? outset.speed : std::sqrt(outset.pressure / outset.density);
+  return {outset.pressure, outset.density, speed, distension, std::clamp(scene.numerics.largest_aspect, 1.5, 4.0)};
+}
+
+std::map<std::string, FieldStyle> field_styles(const Scene& scene, const Extremes& expected) {
   std::map<std::string, FieldStyle> styles;
   for (const Row& row : table) {
     FieldStyle& style = styles.try_emplace(row.field, FieldStyle{row.label, row.map, {}}).first->second;

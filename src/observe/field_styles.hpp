@@ -12,9 +12,15 @@
 
 namespace ejecta {
 
+/// Largest values to be expected in a run [SI]; `unset` where nothing is known.
+struct Extremes {
+  double pressure = unset, density = unset, speed = unset, distension = unset, aspect = unset, mach = unset;
+};
+/// What particles lead one to expect that set out like this.
+Extremes extremes(const Scene& scene, const std::vector<Material>& materials, const Outset& outset);
+
 /// Of all fields that have a style of their own or a range given by the scene. Ranges are the scene's, and where it
-/// gives none what follows from what the run sets out with.
-std::map<std::string, FieldStyle> field_styles(const Scene& scene, const std::vector<Material>& materials,
-                                               const Outset& outset);
+/// gives none what follows from the extremes.
+std::map<std::string, FieldStyle> field_styles(const Scene& scene, const Extremes& expected);
 
 }  // namespace ejecta

@@ -1,5 +1,5 @@
 #pragma once
-/// In situ: at the times of the frames fragments are found, and slices and the live columns drawn.
+/// In situ: at the times of the frames what there is to see is drawn, by pipelines or by Ejecta itself.
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -9,20 +9,29 @@
 #include "analysis/fragments.hpp"
 #include "insitu/catalyst_bridge.hpp"
 #include "insitu/image_index.hpp"
-#include "observe/channels.hpp"
-#include "observe/columns.hpp"
-#include "observe/compaction.hpp"
+#include "insitu/pipelines.hpp"
 #include "observe/painter.hpp"
 #include "observe/schedule.hpp"
 #include "observe/view.hpp"
 #include "simulation/simulation.hpp"
-#include "sph/sph.hpp"
 
 namespace ejecta {
 
-/// What frames leave for others to show.
-class FrameResults : public Observer {
+/// What the pictures of a run are told of it.
+struct PicturePlan {
+  View view;
+  std::vector<std::string> slice_fields;     ///< panels of a slice
+  std::map<std::string, FieldStyle> styles;  ///< field -> how it is shown
+};
+
+/// What is common to the pictures of all solvers: when, how often, and by whom they are drawn.
+class Frames : public Observer {
  public:
+  double next_time() const override { return schedule_.next(); }
+  void observe(Simulation& sim, bool last) override;
+  /// After a restart: the next frame is the first one later than the checkpoint.
+  virtual void resume(const Simulation& sim);
+
   /// Fragments as of the last frame; nothing if the scene does not ask for them.
   const std::optional<FragmentTable>& fragments() const { return fragments_; }
   const std::vector<std::string>& warnings() const { return warnings_; }
@@ -30,47 +39,44 @@ class FrameResults : public Observer {
   void warn(std::string text);
   int images() const { return images_; }
   int drawn() const { return drawn_; }  ///< frames so far
-  virtual int pipeline_failures() const = 0;  ///< calls of Catalyst scripts that failed
+  /// Calls of Catalyst scripts that failed.
+  int pipeline_failures() const { return bridge_ ? bridge_->failures() : 0; }
 
  protected:
+  /// `told`: what else the pipelines are to know. With `catalyst` they draw, otherwise Ejecta's own painter.
+  Frames(const Simulation& sim, std::filesystem::path folder, bool catalyst, const PicturePlan& plan,
+         PipelineSettings told);
+
+  /// What has to be found out for a frame, drawn or not.
+  virtual void look(Simulation&) {}
+  /// Pictures beside those of the pipelines.
+  virtual void draw_more(Simulation&) {}
+  /// Channels of this solver that some script reads.
+  virtual std::vector<Channel> make_channels(Simulation& sim) = 0;
+  virtual SampledImage make_slice() = 0;
+  /// After a frame.
+  virtual void keep(bool /*last*/) {}
+  bool reads(const char* channel) const { return bridge_->reads(channel); }
+
+  std::filesystem::path folder_;
+  View view_;
+  PixelGrid slice_grid_;
+  Painter painter_;
   std::optional<FragmentTable> fragments_;
+
+ private:
+  void draw_with_catalyst(Simulation& sim);
+  void draw_without_gl(const Simulation& sim);
+
+  FrameSchedule schedule_;
+  FrameGovernor governor_;
+  std::unique_ptr<CatalystBridge> bridge_;
+  std::optional<ImageIndex> index_;  ///< of the images drawn without Catalyst
   std::vector<std::string> warnings_;
   int drawn_ = 0, images_ = 0;
 };
 
-template <int Dim>
-class Frames final : public FrameResults {
- public:
-  /// Pictures of `sph`, which outlives this. With `catalyst` images are drawn by the pipelines, otherwise by Ejecta's own
-  /// painter.
-  Frames(const Simulation& sim, const Sph<Dim>& sph, std::filesystem::path folder, bool catalyst);
-
-  double next_time() const override { return schedule_.next(); }
-  void observe(Simulation& sim, bool last) override;
-  int pipeline_failures() const override { return bridge_ ? bridge_->failures() : 0; }
-  /// After a restart: the next frame is the first one later than the checkpoint.
-  void resume();
-
- private:
-  void draw(Simulation& sim);
-  void find_fragments();
-  void draw_column_density();
-  std::vector<Channel> make_channels(Simulation& sim);
-  void draw_with_catalyst(Simulation& sim);
-  void draw_without_gl();
-
-  const Sph<Dim>& sph_;
-  std::filesystem::path folder_;
-  View view_;
-  PixelGrid slice_grid_;
-  FrameSchedule schedule_;
-  FrameGovernor governor_;
-  FragmentTracker tracker_;
-  Painter painter_;
-  FrameChannels<Dim> channels_;
-  std::unique_ptr<CatalystBridge> bridge_;
-  std::optional<ImageIndex> index_;  ///< of the images drawn without Catalyst
-  CompactionPlot compaction_;
-};
+/// Those of the solver that the simulation has, which must outlive them.
+std::unique_ptr<Frames> make_frames(const Simulation& sim, const std::filesystem::path& folder, bool catalyst);
 
 }  // namespace ejecta

@@ -3,10 +3,10 @@
 namespace ejecta {
 
 bool FrameSchedule::take(std::int64_t step, double time, bool last) {
-  const bool due = time >= next_ - 1e-9 * interval_;
-  if ((!due && !last) || step == last_drawn_) return false;
+  const bool always = times_.pass(time) || last, due = time >= next_ - 1e-9 * interval_;
+  if ((!due && !always) || step == last_drawn_) return false;
   while (next_ <= time * (1 + 1e-12)) next_ += interval_;
-  if (!last && ++passed_over_ < stride_) return false;
+  if (!always && ++passed_over_ < stride_) return false;
   passed_over_ = 0;
   last_drawn_ = step;
   return true;
@@ -14,6 +14,7 @@ bool FrameSchedule::take(std::int64_t step, double time, bool last) {
 
 void FrameSchedule::resume(double time) {
   while (next_ <= time) next_ += interval_;
+  times_.pass(time);
 }
 
 std::optional<double> FrameGovernor::excess(double insitu_seconds, double step_seconds) {

@@ -1,19 +1,42 @@
 #pragma once
 /// When frames are drawn, and how much of the wall time they may take.
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <optional>
+#include <utility>
+#include <vector>
 
 namespace ejecta {
+
+/// The times of output.times [s], one after the other.
+class OutputTimes {
+ public:
+  explicit OutputTimes(std::vector<double> times) : times_(std::move(times)) { std::ranges::sort(times_); }
+  /// Infinity after the last one.
+  double next() const { return passed_ < times_.size() ? times_[passed_] : std::numeric_limits<double>::infinity(); }
+  /// Whether some have been reached since the last call.
+  bool pass(double time) {
+    const std::size_t before = passed_;
+    while (next() <= time * (1 + 1e-12)) ++passed_;
+    return passed_ > before;
+  }
+
+ private:
+  std::vector<double> times_;
+  std::size_t passed_ = 0;
+};
 
 /// Times of frames: equally spaced, first and last included. Steps end at all of them, drawn or passed over, so that
 /// the result of a run does not depend on the speed of the machine.
 class FrameSchedule {
  public:
-  /// `frames` of at least 2 in [0, time_end] [s].
-  FrameSchedule(double time_end, int frames) : interval_(time_end / (frames - 1)) {}
+  /// `frames` of at least 2 in [0, time_end] [s], and one at each of the times [s] that are given, which is always drawn.
+  FrameSchedule(double time_end, int frames, const std::vector<double>& times = {})
+      : interval_(time_end / (frames - 1)), times_(times) {}
 
   /// Time of the next frame, drawn or passed over [s].
-  double next() const { return next_; }
+  double next() const { return std::min(next_, times_.next()); }
   /// Is a frame to be drawn now, at the end of this step? `last`: of the run, which is always drawn. No step is drawn
   /// twice.
   bool take(std::int64_t step, double time, bool last);
@@ -24,6 +47,7 @@ class FrameSchedule {
 
  private:
   double interval_, next_ = 0;        // s
+  OutputTimes times_;
   int stride_ = 1, passed_over_ = 0;  ///< every stride-th frame is drawn
   std::int64_t last_drawn_ = -1;      ///< step
 };

@@ -4,7 +4,7 @@
 
 namespace ejecta {
 
-Status::Status(const Simulation& sim, std::filesystem::path folder, const FrameResults& frames, FragmentContext context)
+Status::Status(const Simulation& sim, std::filesystem::path folder, const Frames& frames, FragmentContext context)
     : folder_(std::move(folder)),
       frames_(frames),
       monitor_(folder_),
@@ -12,12 +12,12 @@ Status::Status(const Simulation& sim, std::filesystem::path folder, const FrameR
       first_time_(sim.clock.time),
       first_wall_(sim.wall_seconds),
       first_total_(sim.wall_seconds + sim.insitu_seconds),
-      first_step_(sim.clock.step) {
+      first_work_(element_steps(sim)) {
   status_.scene = heading(sim.scene);
   status_.time_end = sim.scene.time_end;
   for (const auto& package : sim.packages) status_.particles += static_cast<std::int64_t>(package->elements());
   if (sim.scene.fragments.enabled) status_.smallest_fragment = context_.share(context_.smallest);
-  status_.fragment_target = context_.bodies[context_.target];
+  if (!context_.bodies.empty()) status_.fragment_target = context_.bodies[context_.target];
 }
 
 void Status::gather(const Simulation& sim) {
@@ -27,8 +27,7 @@ void Status::gather(const Simulation& sim) {
   status_.limited_by = std::string(sim.vote.reason);
   status_.wall_s = sim.wall_seconds + sim.insitu_seconds;
   if (const double wall = sim.wall_seconds - first_wall_; wall > 0)
-    status_.particle_steps_per_s =
-        static_cast<double>(status_.particles) * static_cast<double>(sim.clock.step - first_step_) / wall;
+    status_.particle_steps_per_s = (element_steps(sim) - first_work_) / wall;
   if (const double done = sim.clock.time - first_time_; done > 0)
     status_.eta_s = (status_.wall_s - first_total_) * (status_.time_end - sim.clock.time) / done;
   for (const Quantity& q : quantities(sim, frames_, context_)) {

@@ -11,7 +11,7 @@ namespace ejecta {
 
 class Status final : public Observer {
  public:
-  Status(const Simulation& sim, std::filesystem::path folder, const FrameResults& frames, FragmentContext context);
+  Status(const Simulation& sim, std::filesystem::path folder, const Frames& frames, FragmentContext context);
   void observe(Simulation& sim, bool last) override;
   /// The last word of the run.
   void conclude(const Simulation& sim, RunState state, int exit_code);
@@ -22,12 +22,11 @@ class Status final : public Observer {
   void gather(const Simulation& sim);
 
   std::filesystem::path folder_;
-  const FrameResults& frames_;
+  const Frames& frames_;
   Monitor monitor_;
   MonitorStatus status_;
   FragmentContext context_;
-  double first_time_, first_wall_, first_total_;
-  std::int64_t first_step_;
+  double first_time_, first_wall_, first_total_, first_work_;
 };
 
 }  // namespace ejecta

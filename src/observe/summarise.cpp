@@ -4,6 +4,7 @@
 
 #include "base/parallel.hpp"
 #include "observe/checkpoints.hpp"
+#include "observe/solvers.hpp"
 #include "observe/tables.hpp"
 #include "scene/names.hpp"
 #include "sph/diagnostics.hpp"
@@ -22,7 +23,7 @@ std::int64_t folder_bytes(const std::filesystem::path& folder) {
 }
 
 template <int Dim>
-std::vector<BodySummary> summarise_bodies(const Sph<Dim>& sph, const FrameResults& frames,
+std::vector<BodySummary> summarise_bodies(const Sph<Dim>& sph, const Frames& frames,
                                           const FragmentContext& context) {
   std::vector<BodySummary> bodies(context.bodies.size());
   for (std::size_t b = 0; b < bodies.size(); ++b) {
@@ -46,27 +47,49 @@ std::vector<BodySummary> summarise_bodies(const Sph<Dim>& sph, const FrameResult
   return bodies;
 }
 
-}  // namespace
-
 template <int Dim>
-Summary summarise(const Simulation& sim, const Sph<Dim>& sph, const FrameResults& frames,
-                  const FragmentContext& context, const std::filesystem::path& folder, int exit_code) {
-  Summary s;
-  const ConservationErrors errors = conservation_errors(initial(sim), conserved(sim), external(sim));
+void add_particles(Summary& s, const Simulation& sim, const Sph<Dim>& sph, const Frames& frames,
+                   const FragmentContext& context) {
   const double n = static_cast<double>(sph.particles.size()), steps = static_cast<double>(sim.clock.step);
-  s.scene = sim.scene.name;
-  s.dimension = Dim;
-  s.scheme = name_of(sim.scene.numerics.scheme);
-  s.precision = name_of(sim.scene.numerics.precision);
-  s.threads = max_threads();
   s.particles = static_cast<std::int64_t>(sph.particles.size());
-  s.steps = sim.clock.step;
-  s.time_s = sim.clock.time;
-  s.wall_s = sim.wall_seconds + sim.insitu_seconds;
   if (sim.wall_seconds > 0) s.particle_steps_per_s = n * steps / sim.wall_seconds;
   s.neighbours_mean = mean_neighbours(sph);
   if (s.particle_steps_per_s) s.pair_interactions_per_s = *s.particle_steps_per_s * *s.neighbours_mean;
   s.bytes_per_particle = static_cast<double>(sph.bytes()) / n;
+  if (sim.scene.numerics.scheme == SchemeKind::asph) {
+    s.shape_votes = sph.shape_report.votes;
+    s.shape_few_neighbours = sph.shape_report.few_neighbours;
+    s.shape_limited_change = sph.shape_report.limited_change;
+    s.shape_largest_aspect = sph.shape_report.largest_aspect;
+  }
+  s.bodies = summarise_bodies(sph, frames, context);
+  if (frames.fragments()) {
+    s.fragment_target = s.bodies[context.target].name;
+    s.fragments = static_cast<std::int64_t>(frames.fragments()->fragments.size());
+    s.largest_fragment_mass_fraction = s.bodies[context.target].largest_fragment_mass_fraction;
+  }
+}
+
+}  // namespace
+
+Summary summarise(const Simulation& sim, const Frames& frames, const FragmentContext& context,
+                  const std::filesystem::path& folder, int exit_code) {
+  Summary s;
+  const ConservationErrors errors = conservation_errors(initial(sim), conserved(sim), external(sim));
+  s.scene = sim.scene.name;
+  s.dimension = sim.scene.dimension;
+  s.scheme = name_of(sim.scene.numerics.scheme);
+  s.precision = name_of(sim.scene.numerics.precision);
+  s.threads = max_threads();
+  s.steps = sim.clock.step;
+  s.time_s = sim.clock.time;
+  s.wall_s = sim.wall_seconds + sim.insitu_seconds;
+  with_particles(sim, [&](const auto& sph) { add_particles(s, sim, sph, frames, context); });
+  with_grid(sim, [&](const auto& grid) {
+    s.cells = static_cast<std::int64_t>(grid.elements());
+    if (sim.wall_seconds > 0)
+      s.cell_steps_per_s = grid.element_steps() / sim.wall_seconds;
+  });
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   s.peak_rss_mb = static_cast<double>(usage.ru_maxrss) / 1024;
@@ -74,30 +97,13 @@ Summary summarise(const Simulation& sim, const Sph<Dim>& sph, const FrameResults
   if (kept(sim).momentum) s.momentum_error_rel = errors.momentum;
   if (kept(sim).angular_momentum) s.angular_momentum_error_rel = errors.angular_momentum;
   s.energy_error_rel = errors.energy;
-  if (sim.scene.numerics.scheme == SchemeKind::asph) {
-    s.shape_votes = sph.shape_report.votes;
-    s.shape_few_neighbours = sph.shape_report.few_neighbours;
-    s.shape_limited_change = sph.shape_report.limited_change;
-    s.shape_largest_aspect = sph.shape_report.largest_aspect;
-  }
   s.images = frames.images();
   s.insitu_share = s.wall_s > 0 ? sim.insitu_seconds / s.wall_s : 0;
   s.insitu_bytes_written = folder_bytes(folder / "images");
   s.full_dump_bytes_avoided = static_cast<std::int64_t>(dump_bytes(sim) * frames.drawn());
-  s.bodies = summarise_bodies(sph, frames, context);
-  if (frames.fragments()) {
-    s.fragment_target = s.bodies[context.target].name;
-    s.fragments = static_cast<std::int64_t>(frames.fragments()->fragments.size());
-    s.largest_fragment_mass_fraction = s.bodies[context.target].largest_fragment_mass_fraction;
-  }
   s.quantities = quantities(sim, frames, context);
   s.exit = exit_code;
   return s;
 }
-
-template Summary summarise<2>(const Simulation&, const Sph<2>&, const FrameResults&, const FragmentContext&,
-                              const std::filesystem::path&, int);
-template Summary summarise<3>(const Simulation&, const Sph<3>&, const FrameResults&, const FragmentContext&,
-                              const std::filesystem::path&, int);
 
 }  // namespace ejecta

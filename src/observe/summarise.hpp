@@ -8,8 +8,7 @@
 
 namespace ejecta {
 
-template <int Dim>
-Summary summarise(const Simulation& sim, const Sph<Dim>& sph, const FrameResults& frames,
-                  const FragmentContext& context, const std::filesystem::path& folder, int exit_code);
+Summary summarise(const Simulation& sim, const Frames& frames, const FragmentContext& context,
+                  const std::filesystem::path& folder, int exit_code);
 
 }  // namespace ejecta

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "observe/solvers.hpp"
 #include "scene/units.hpp"
 
 namespace ejecta {
@@ -21,22 +22,23 @@ std::string hours(double seconds) {
 }
 }  // namespace
 
-template <int Dim>
-FragmentContext fragment_context(const Sph<Dim>& sph) {
+FragmentContext fragment_context(const Simulation& sim) {
   FragmentContext context;
-  context.dimension = Dim;
-  context.target = target_body(sph.scene, sph.outset.bodies);
-  for (const BodyAtOutset& body : sph.outset.bodies) context.body_mass.push_back(body.mass);
-  const auto label = sph.particles.label(Label::body);
-  const auto first = std::ranges::find(label, static_cast<std::int32_t>(context.target)) - label.begin();
-  context.smallest =
-      sph.scene.fragments.min_particles * sph.particles.column(Field::mass)[static_cast<std::size_t>(first)];
-  for (const Body& b : sph.scene.bodies) context.bodies.push_back(b.name);
-  for (const Material& m : sph.materials) context.materials.push_back(m.name);
+  with_particles(sim, [&]<int Dim>(const Sph<Dim>& sph) {
+    context.dimension = Dim;
+    context.target = target_body(sph.scene, sph.outset.bodies);
+    for (const BodyAtOutset& body : sph.outset.bodies) context.body_mass.push_back(body.mass);
+    const auto label = sph.particles.label(Label::body);
+    const auto first = std::ranges::find(label, static_cast<std::int32_t>(context.target)) - label.begin();
+    context.smallest =
+        sph.scene.fragments.min_particles * sph.particles.column(Field::mass)[static_cast<std::size_t>(first)];
+    for (const Body& b : sph.scene.bodies) context.bodies.push_back(b.name);
+    for (const Material& m : sph.materials) context.materials.push_back(m.name);
+  });
   return context;
 }
 
-Quantities quantities(const Simulation& sim, const FrameResults& frames, const FragmentContext& context) {
+Quantities quantities(const Simulation& sim, const Frames& frames, const FragmentContext& context) {
   Quantities list = quantities(sim);
   if (const auto& fragments = frames.fragments()) {
     const std::string target = context.bodies[context.target];
@@ -47,18 +49,21 @@ Quantities quantities(const Simulation& sim, const FrameResults& frames, const F
   return list;
 }
 
-Tables::Tables(const Scene& scene, const std::filesystem::path& folder, FrameResults& frames, FragmentContext context,
+Tables::Tables(const Scene& scene, const std::filesystem::path& folder, Frames& frames, FragmentContext context,
                std::optional<double> resume_at)
     : interval_(is_set(scene.output.history_interval) ? scene.output.history_interval : scene.time_end / 200),
+      times_(scene.output.times),
       frames_(frames),
       context_(std::move(context)),
       history_(folder / "history.csv", resume_at) {
   while (resume_at && next_ <= *resume_at) next_ += interval_;
+  if (resume_at) times_.pass(*resume_at);
   if (scene.fragments.enabled) largest_.emplace(folder / "largest_fragment.csv", context_, resume_at);
 }
 
 void Tables::observe(Simulation& sim, bool last) {
-  if (sim.clock.time < next_ && !last) return;
+  const bool asked = times_.pass(sim.clock.time);
+  if (sim.clock.time < next_ && !asked && !last) return;
   while (next_ <= sim.clock.time) next_ += interval_;
   sim.timers.time("tables", [&] {
     history_.write(quantities(sim, frames_, context_));
@@ -77,27 +82,22 @@ void Progress::observe(Simulation& sim, bool last) {
   if (start_time_ < 0) {
     start_time_ = sim.clock.time;
     start_wall_ = sim.wall_seconds;
-    start_step_ = sim.clock.step;
+    start_work_ = element_steps(sim);
   }
   if (now - shown_ < between_lines && !last) return;
   const double elapsed = std::chrono::duration<double>(now - start_).count();
   const double done = sim.clock.time - start_time_, left = sim.scene.time_end - sim.clock.time;
   const std::string eta = done > 0 && !last ? "  ETA " + hours(elapsed * left / done) : "";
   const double wall = sim.wall_seconds - start_wall_;
-  std::size_t elements = 0;
-  for (const auto& package : sim.packages) elements += package->elements();
-  const double rate =
-      wall > 0 ? static_cast<double>(elements) * static_cast<double>(sim.clock.step - start_step_) / wall / 1e6 : 0;
+  const double rate = wall > 0 ? (element_steps(sim) - start_work_) / wall / 1e6 : 0;
+  const std::string_view element = sim.packages.size() == 1 ? sim.packages[0]->element() : "element";
   const bool known = sim.voter && sim.vote.culprit != Vote::nobody;
   const std::string where = known ? sim.voter->whereabouts(sim.vote.culprit) : "";
-  spdlog::info("step {:6d}  t {:>10} of {}  dt {:>9} by {}{}  {:.2f} M particle-steps/s  dE/E {:+.1e}{}",
+  spdlog::info("step {:6d}  t {:>10} of {}  dt {:>9} by {}{}  {:.2f} M {}-steps/s  dE/E {:+.1e}{}",
                sim.clock.step, format_quantity(sim.clock.time, "s"), format_quantity(sim.scene.time_end, "s"),
-               format_quantity(sim.clock.dt, "s"), sim.vote.reason, where.empty() ? "" : " in " + where, rate,
+               format_quantity(sim.clock.dt, "s"), sim.vote.reason, where.empty() ? "" : " in " + where, rate, element,
                conservation_errors(initial(sim), conserved(sim), external(sim)).energy, eta);
   shown_ = now;
 }
-
-template FragmentContext fragment_context<2>(const Sph<2>&);
-template FragmentContext fragment_context<3>(const Sph<3>&);
 
 }  // namespace ejecta

@@ -4,29 +4,31 @@
 #include <filesystem>
 
 #include "observe/frames.hpp"
+#include "observe/schedule.hpp"
 #include "output/fragment_files.hpp"
 #include "output/history.hpp"
 #include "simulation/simulation.hpp"
 
 namespace ejecta {
 
-/// What the fragment tables are told about the run.
-template <int Dim>
-FragmentContext fragment_context(const Sph<Dim>& sph);
+/// What the fragment tables are told about the run; without bodies if there are no particles.
+FragmentContext fragment_context(const Simulation& sim);
 
 /// The quantities of the simulation, and of its fragments where they are looked for.
-Quantities quantities(const Simulation& sim, const FrameResults& frames, const FragmentContext& context);
+Quantities quantities(const Simulation& sim, const Frames& frames, const FragmentContext& context);
 
 class Tables final : public Observer {
  public:
-  Tables(const Scene& scene, const std::filesystem::path& folder, FrameResults& frames, FragmentContext context,
+  Tables(const Scene& scene, const std::filesystem::path& folder, Frames& frames, FragmentContext context,
          std::optional<double> resume_at);
+  double next_time() const override { return times_.next(); }
   void observe(Simulation& sim, bool last) override;
 
  private:
   double interval_;
   double next_ = 0;
-  FrameResults& frames_;
+  OutputTimes times_;
+  Frames& frames_;
   FragmentContext context_;
   History history_;
   std::optional<LargestFragmentHistory> largest_;
@@ -41,8 +43,7 @@ class Progress final : public Observer {
  private:
   using clock = std::chrono::steady_clock;
   clock::time_point start_ = clock::now(), shown_{};
-  double start_time_ = -1, start_wall_ = 0;
-  std::int64_t start_step_ = 0;
+  double start_time_ = -1, start_wall_ = 0, start_work_ = 0;
 };
 
 }  // namespace ejecta

@@ -49,6 +49,7 @@ std::string summary_json(const Summary& s) {
   add("time_s", s.time_s);
   add("wall_s", s.wall_s);
   add("particle_steps_per_s", s.particle_steps_per_s);
+  add("cell_steps_per_s", s.cell_steps_per_s);
   add("pair_interactions_per_s", s.pair_interactions_per_s);
   add("neighbours_mean", s.neighbours_mean);
   add("bytes_per_particle", s.bytes_per_particle);

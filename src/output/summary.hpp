@@ -27,10 +27,10 @@ struct Summary {
   std::string scheme, precision;
   int threads = 1;
   std::int64_t particles = 0;
-  std::optional<std::int64_t> cells;  ///< of the finite-volume patch
+  std::optional<std::int64_t> cells;  ///< of a grid
   std::int64_t steps = 0;
   double time_s = 0, wall_s = 0;
-  std::optional<double> particle_steps_per_s, pair_interactions_per_s, neighbours_mean;
+  std::optional<double> particle_steps_per_s, cell_steps_per_s, pair_interactions_per_s, neighbours_mean;
   std::optional<double> bytes_per_particle, peak_rss_mb;
   std::optional<double> mass_error_rel, energy_error_rel;
   std::optional<double> momentum_error_rel;          ///< not with reflecting faces, which take momentum away

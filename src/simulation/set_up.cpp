@@ -7,7 +7,7 @@ Simulation set_up_simulation(const Scene& scene, const std::vector<Material>& ma
   Simulation sim;
   sim.scene = scene;
   for (const PackageKind& kind : package_kinds())
-    if (kind.takes_part ? kind.takes_part(scene) : scene.sections.contains(kind.section.name))
+    if (kind.in(scene))
       sim.packages.push_back(kind.set_up(scene, materials));
   return sim;
 }

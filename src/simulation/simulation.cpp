@@ -101,6 +101,12 @@ Kept kept(const Simulation& sim) {
   return all;
 }
 
+double element_steps(const Simulation& sim) {
+  double sum = 0;
+  for (const auto& package : sim.packages) sum += package->element_steps();
+  return sum;
+}
+
 std::vector<StageTimers::Entry> wall_times(const Simulation& sim) {
   std::vector<StageTimers::Entry> all;
   for (const auto& package : sim.packages)

@@ -23,11 +23,17 @@ struct Simulation {
 /// The packages that a scene asks for, set up. Throws as PackageKind::set_up does.
 Simulation set_up_simulation(const Scene& scene, const std::vector<Material>& materials);
 
-/// The package of a type, for those who look at one solver alone. Throws std::bad_cast if it is not there.
+/// The package of a type, for those who look at one solver alone; null if it is not there.
+template <class Solver>
+const Solver* find_package(const Simulation& sim) {
+  for (const auto& package : sim.packages)
+    if (const auto* found = dynamic_cast<const Solver*>(package.get())) return found;
+  return nullptr;
+}
+/// The same where it must be there. Throws std::bad_cast.
 template <class Solver>
 const Solver& package_of(const Simulation& sim) {
-  for (const auto& package : sim.packages)
-    if (const auto* found = dynamic_cast<const Solver*>(package.get())) return *found;
+  if (const auto* found = find_package<Solver>(sim)) return *found;
   throw std::bad_cast{};
 }
 
@@ -46,6 +52,9 @@ Totals initial(const Simulation& sim);
 Totals conserved(const Simulation& sim);
 ExternalLoad external(const Simulation& sim);
 Kept kept(const Simulation& sim);
+
+/// Steps of single elements of all packages so far.
+double element_steps(const Simulation& sim);
 
 /// Time, step, ledger, and what the packages have to say.
 Quantities quantities(const Simulation& sim);

@@ -11,6 +11,7 @@ PackageKind particle_package() {
     return set_up<3>(scene, materials);
   };
   kind.takes_part = [](const Scene& scene) { return scene.numerics.scheme != SchemeKind::fvm; };
+  kind.estimate = estimate_particles;
   for (const FieldInfo& field : field_catalogue())
     if (field.role != Role::rate) kind.fields.emplace(field.name, field.unit);
   return kind;

@@ -6,4 +6,7 @@ namespace ejecta {
 /// The particles of the bodies: numerics.scheme = "sph" or "asph".
 PackageKind particle_package();
 
+/// Their expected costs.
+Estimate estimate_particles(const Scene& scene, const std::vector<Material>& materials);
+
 }  // namespace ejecta

@@ -46,7 +46,7 @@ class Ball : public testing::Test {
            "out.Trigger = 'TimeStep'\n"
            "out.Writer.FileName = 'p_{timestep:06d}.vtpd'\n"
            "options = catalyst.Options()\n";
-    std::vector<std::string> scripts = default_pipelines(true);
+    std::vector<std::string> scripts = default_pipelines(scene_with(true));
     scripts.insert(scripts.begin(), {folder + "/fails.py", folder + "/mine.py", folder + "/fails_at_once.py",
                                      folder + "/writes_nothing.py"});
     check_pipeline_scripts(scripts);

@@ -51,7 +51,7 @@ TEST(Gas, TheDefaultPipelinesShowWhatThereIs) {
   s.particle_radius = 0.006;
   s.image_width = 800;
   s.image_height = 500;
-  CatalystBridge bridge(default_pipelines(false), s);
+  CatalystBridge bridge(default_pipelines(scene_with(false)), s);
   const FrameReport report = bridge.execute(7, 5e-4, std::vector{particles, slice});
   EXPECT_TRUE(report.warnings.empty()) << report.warnings.front();
   ASSERT_EQ(report.images.size(), 2u);

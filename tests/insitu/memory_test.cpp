@@ -22,7 +22,7 @@ double resident_memory() {
 TEST(Memory, DoesNotGrowWithTheNumberOfFrames) {
   constexpr int warm_up = 10, frames = 40;
   const ShatteredBall ball(300, 5, 20, 0.2);
-  CatalystBridge bridge(default_pipelines(true), ball.settings(fresh_folder("memory")));
+  CatalystBridge bridge(default_pipelines(scene_with(true)), ball.settings(fresh_folder("memory")));
   const std::vector<Channel> channels{ball.particles(), ball.slice(), ball.fragments()};
   double before = 0;
   for (int step = 0; step < warm_up + frames; ++step) {

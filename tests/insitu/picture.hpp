@@ -13,8 +13,16 @@
 #include <vector>
 
 #include "render/colour_map.hpp"
+#include "scene/scene.hpp"
 
 namespace ejecta {
+
+/// A scene of particles that follows fragments, or not.
+inline Scene scene_with(bool fragments) {
+  Scene scene;
+  scene.fragments.enabled = fragments;
+  return scene;
+}
 
 struct Picture {
   int width = 0, height = 0;

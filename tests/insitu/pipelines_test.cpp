@@ -20,17 +20,22 @@ std::vector<std::string> problems_of(const std::vector<std::string>& paths) {
 }
 
 TEST(Pipelines, TheDefaultOnesPassTheCheck) {
-  EXPECT_EQ(default_pipelines(false).size(), 2u);
-  EXPECT_EQ(default_pipelines(true).size(), 3u);
-  EXPECT_TRUE(problems_of(default_pipelines(true)).empty());
+  EXPECT_EQ(default_pipelines(scene_with(false)).size(), 2u);
+  EXPECT_EQ(default_pipelines(scene_with(true)).size(), 3u);
+  EXPECT_TRUE(problems_of(default_pipelines(scene_with(true))).empty());
+  Scene grid;
+  grid.numerics.scheme = SchemeKind::fvm;
+  EXPECT_EQ(default_pipelines(grid).size(), 1u);
 }
 
 TEST(Pipelines, TheDefaultOnesMayBeNamedAmongOthers) {
-  EXPECT_EQ(pipeline_scripts({}, true), default_pipelines(true));
-  std::vector<std::string> expected = default_pipelines(false);
+  EXPECT_EQ(pipeline_scripts(scene_with(true)), default_pipelines(scene_with(true)));
+  std::vector<std::string> expected = default_pipelines(scene_with(false));
   expected.insert(expected.begin(), "/mine.py");
   expected.push_back("/yours.py");
-  EXPECT_EQ(pipeline_scripts({"/mine.py", "default", "/yours.py"}, false), expected);
+  Scene scene = scene_with(false);
+  scene.insitu.pipelines = {"/mine.py", "default", "/yours.py"};
+  EXPECT_EQ(pipeline_scripts(scene), expected);
 }
 
 TEST(Pipelines, ASyntaxErrorIsNamedWithFileAndLine) {

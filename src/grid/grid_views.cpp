@@ -1,0 +1,180 @@
+/// What a grid shows of itself.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/parallel.hpp"
+#include "grid/grid.hpp"
+#include "model/shock_front.hpp"
+
+namespace ejecta {
+
+namespace {
+
+/// Directions spread evenly over the circle, or the sphere by the golden angle.
+template <int Dim>
+std::vector<Vec<Dim>> directions() {
+  std::vector<Vec<Dim>> list;
+  constexpr int count = Dim == 2 ? 180 : 400;
+  for (int k = 0; k < count; ++k) {
+    if constexpr (Dim == 2) {
+      const double angle = 2 * std::numbers::pi * (k + 0.5) / count;
+      list.push_back({std::cos(angle), std::sin(angle)});
+    } else {
+      const double z = 1 - 2 * (k + 0.5) / count, r = std::sqrt(1 - z * z);
+      const double angle = std::numbers::pi * (3 - std::sqrt(5.0)) * k;
+      list.push_back({r * std::cos(angle), r * std::sin(angle), z});
+    }
+  }
+  return list;
+}
+
+}  // namespace
+
+template <int Dim>
+std::optional<CellState<Dim>> Grid<Dim>::at(const Vec<Dim>& x) const {
+  std::array<int, Dim> cell{};
+  bool beyond = false;
+  for (std::size_t a = 0; a < Dim; ++a) {
+    cell[a] = static_cast<int>(std::floor((x[static_cast<int>(a)] - box_.corner[static_cast<int>(a)]) / box_.spacing));
+    if ((cell[a] < 0 && !box_.grows_lower[a]) || (cell[a] >= box_.cells[a] && !box_.grows_upper[a])) return std::nullopt;
+    beyond = beyond || cell[a] < 0 || cell[a] >= box_.cells[a];
+  }
+  if (!beyond) return state(box_.index(cell));
+  Conserved<Dim> gas;
+  for (std::size_t c = 0; c < gas.size(); ++c) gas[c] = {ambient_[c]};
+  return cell_state<Dim>(material_.eos, gas, 0);
+}
+
+template <int Dim>
+std::optional<Blast> Grid<Dim>::blast() const {
+  if (!scene_.charge || !scene_.gas) return std::nullopt;
+  Vec<Dim> centre;
+  double farthest2 = 0;
+  for (int a = 0; a < Dim; ++a) {
+    const auto i = static_cast<std::size_t>(a);
+    centre[a] = scene_.charge->center[i];
+    const double low = centre[a] - box_.corner[a], high = box_.cells[i] * box_.spacing - low;
+    farthest2 += std::max(low, high) * std::max(low, high);
+  }
+  Conserved<Dim> gas;
+  for (std::size_t c = 0; c < gas.size(); ++c) gas[c] = {ambient_[c]};
+  const double ambient = cell_state<Dim>(material_.eos, gas, 0).pressure;
+  const auto all = directions<Dim>();
+  std::vector<std::optional<ShockFront>> fronts(all.size());
+  parallel_blocks(all.size(), 1, [&](std::size_t k, std::size_t) {
+    std::vector<double> radius, pressure;
+    for (double r = 0.5 * box_.spacing; r * r < farthest2; r += 0.5 * box_.spacing) {
+      if (!pressure_near(centre + r * all[k], pressure)) break;
+      radius.push_back(r);
+    }
+    // A ray that ends at a mirror sees what its image sees; one that ends at a face in the shock sees no front.
+    fronts[k] = find_shock_front(radius, pressure, ambient);
+    if (fronts[k] && fronts[k]->radius > radius.back() - 2 * box_.spacing) fronts[k].reset();
+  });
+  Blast blast{};
+  int found = 0;
+  double squares = 0;
+  for (const auto& front : fronts) {
+    if (!front) continue;
+    blast.radius += front->radius;
+    squares += front->radius * front->radius;
+    blast.peak_pressure += front->peak_pressure;
+    ++found;
+  }
+  if (found == 0) return std::nullopt;
+  blast.radius /= found;
+  blast.peak_pressure /= found;
+  blast.spread = std::sqrt(std::max(0.0, squares / found - blast.radius * blast.radius));
+  blast.peak_density = *std::ranges::max_element(now_[0]);
+  return blast;
+}
+
+/// Adds the pressure at a point, linear between the centres of cells; false beyond the box.
+template <int Dim>
+bool Grid<Dim>::pressure_near(const Vec<Dim>& x, std::vector<double>& pressure) const {
+  std::array<int, Dim> cell{};
+  Vec<Dim> share;
+  for (std::size_t a = 0; a < Dim; ++a) {
+    const auto i = static_cast<int>(a);
+    const double place = (x[i] - box_.corner[i]) / box_.spacing;
+    if (place < 0 || place > box_.cells[a]) return false;
+    const double middle = std::clamp(place - 0.5, 0.0, box_.cells[a] - 1.0);
+    cell[a] = std::min(static_cast<int>(middle), std::max(0, box_.cells[a] - 2));
+    share[i] = middle - cell[a];
+  }
+  double sum = 0;
+  for (int corner = 0; corner < (1 << Dim); ++corner) {
+    std::array<int, Dim> at = cell;
+    double weight = 1;
+    for (std::size_t a = 0; a < Dim; ++a) {
+      const bool upper = (corner >> a) & 1;
+      weight *= upper ? share[static_cast<int>(a)] : 1 - share[static_cast<int>(a)];
+      if (upper && at[a] + 1 < box_.cells[a]) ++at[a];
+    }
+    if (weight > 0) sum += weight * state(box_.index(at)).pressure;
+  }
+  pressure.push_back(sum);
+  return true;
+}
+
+template <int Dim>
+Quantities Grid<Dim>::quantities() const {
+  double pressure = 0, least = std::numeric_limits<double>::infinity(), most = 0;
+  std::vector<double> highest(reduction_blocks, -std::numeric_limits<double>::infinity());
+  parallel_blocks(reduction_blocks, 1, [&](std::size_t b, std::size_t) {
+    for (std::size_t i = b * box_.size() / reduction_blocks; i < (b + 1) * box_.size() / reduction_blocks; ++i)
+      highest[b] = std::max(highest[b], state(i).pressure);
+  });
+  pressure = std::ranges::max(highest);
+  const auto [low, high] = std::ranges::minmax(now_[0]);
+  least = low, most = high;
+  Quantities list{{"max pressure", "Pa", pressure, "highest of a cell", true},
+                  {"min density", "kg/m^3", least, "lowest of a cell"},
+                  {"max density", "kg/m^3", most, "highest of a cell"},
+                  {"cells", "1", static_cast<std::int64_t>(box_.size()), "of the grid"}};
+  if (!scene_.charge || !scene_.gas) return list;
+  const Blast now = blast().value_or(Blast{});
+  list.push_back({"shock radius", "m", now.radius, "mean over directions; 0 before there is a shock", true});
+  list.push_back({"shock radius spread", "m", now.spread, "root mean square over directions"});
+  list.push_back({"shock pressure", "Pa", now.peak_pressure, "largest behind the shock, mean over directions", true});
+  return list;
+}
+
+template <int Dim>
+std::vector<Channel> Grid<Dim>::channels(const Asked& asked) const {
+  if (!asked("grid")) return {};
+  Channel channel;
+  channel.name = "grid";
+  channel.kind = ChannelKind::image;
+  channel.count = box_.size();
+  for (std::size_t a = 0; a < Dim; ++a) {
+    channel.extent[a] = box_.cells[a];
+    channel.origin[a] = box_.corner[static_cast<int>(a)] + 0.5 * box_.spacing;
+    channel.spacing[a] = box_.spacing;
+  }
+  shown_ = {{"pressure", "Pa", {}}, {"velocity", "m/s", {}}, {"specific_energy", "J/kg", {}}, {"mach", "1", {}}};
+  for (OwnedField& field : shown_)
+    field.components.assign(field.name == "velocity" ? Dim : 1, std::vector<double>(box_.size()));
+  parallel_for(0, box_.size(), [&](std::size_t i) {
+    const CellState<Dim> s = state(i);
+    shown_[0].components[0][i] = s.pressure;
+    for (int a = 0; a < Dim; ++a) shown_[1].components[static_cast<std::size_t>(a)][i] = s.velocity[a];
+    shown_[2].components[0][i] = s.specific_energy;
+    shown_[3].components[0][i] = s.velocity.norm() / s.sound_speed;
+  });
+  channel.fields.push_back({"density", "kg/m^3", {now_[0]}});
+  for (const OwnedField& field : shown_) channel.fields.push_back(field.view());
+  return {channel};
+}
+
+template std::optional<CellState<2>> Grid<2>::at(const Vec<2>&) const;
+template std::optional<CellState<3>> Grid<3>::at(const Vec<3>&) const;
+template std::optional<Blast> Grid<2>::blast() const;
+template std::optional<Blast> Grid<3>::blast() const;
+template Quantities Grid<2>::quantities() const;
+template Quantities Grid<3>::quantities() const;
+template std::vector<Channel> Grid<2>::channels(const Asked&) const;
+template std::vector<Channel> Grid<3>::channels(const Asked&) const;
+
+}  // namespace ejecta

@@ -1,0 +1,112 @@
+#include "observe/grid_frames.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "base/parallel.hpp"
+#include "observe/channels.hpp"
+#include "observe/field_styles.hpp"
+
+namespace ejecta {
+
+namespace {
+
+const std::vector<std::string> slice_fields{"density", "pressure", "mach"};
+
+/// How far the blast of a charge will have come, about [m]: a point source of its energy [Sedov 1959].
+double reach_of_blast(const Scene& scene, double density) {
+  const int d = scene.dimension;
+  return std::pow(scene.charge->energy_in(d) / density * scene.time_end * scene.time_end, 1.0 / (d + 2));
+}
+
+/// The box, or where it grows with a blast, what that will have swept.
+template <int Dim>
+View view_of(const Scene& scene, const Grid<Dim>& grid) {
+  View view{scene.insitu.view_center, scene.insitu.view_size};
+  const Box<Dim>& box = grid.box();
+  double largest = 0;
+  for (int a = 0; a < Dim; ++a) {
+    const auto i = static_cast<std::size_t>(a);
+    double low = box.corner[a], high = low + box.cells[i] * box.spacing;
+    if (scene.charge && (box.grows_lower[i] || box.grows_upper[i])) {
+      const double reach = 1.15 * reach_of_blast(scene, grid.ambient_density());
+      if (box.grows_lower[i]) low = std::min(low, scene.charge->center[i] - reach);
+      if (box.grows_upper[i]) high = std::max(high, scene.charge->center[i] + reach);
+    }
+    if (!is_set(view.center[i])) view.center[i] = 0.5 * (low + high);
+    largest = std::max(largest, high - low);
+  }
+  for (double& c : view.center)
+    if (!is_set(c)) c = 0;
+  if (!is_set(view.size)) view.size = 1.04 * largest;
+  return view;
+}
+
+/// Of a blast what its shock will have come down to at the end; of anything else what there is at the start.
+template <int Dim>
+Extremes expected(const Scene& scene, const Grid<Dim>& grid) {
+  const GridOutset& start = grid.outset();
+  Extremes e;
+  e.pressure = start.pressure;
+  e.density = start.density;
+  e.speed = start.speed;
+  e.mach = std::max(2.0, 1.5 * start.mach);
+  if (!scene.charge || !scene.gas) return e;
+  const double r = reach_of_blast(scene, grid.ambient_density());
+  const double volume = Dim == 2 ? std::numbers::pi * r * r : 4 * std::numbers::pi / 3 * r * r * r;
+  e.pressure = 1.5 * scene.charge->energy_in(Dim) / volume;
+  e.density = 6 * grid.ambient_density();
+  return e;
+}
+
+}  // namespace
+
+template <int Dim>
+GridFrames<Dim>::GridFrames(const Simulation& sim, const Grid<Dim>& grid, const std::filesystem::path& folder,
+                            bool catalyst)
+    : Frames(sim, folder, catalyst,
+             {view_of(sim.scene, grid), slice_fields, field_styles(sim.scene, expected(sim.scene, grid))}, {}),
+      grid_(grid) {}
+
+/// What the cells hold at the centres of the pixels.
+template <int Dim>
+SampledImage GridFrames<Dim>::make_slice() {
+  SampledImage image;
+  image.grid = slice_grid_;
+  const auto width = static_cast<std::size_t>(slice_grid_.width), height = static_cast<std::size_t>(slice_grid_.height);
+  const std::vector<double> nothing(width * height, std::numeric_limits<double>::quiet_NaN());
+  image.fields = {{"density", "kg/m^3", {nothing}}, {"pressure", "Pa", {nothing}}, {"mach", "1", {nothing}}};
+  parallel_blocks(height, 1, [&](std::size_t row, std::size_t) {
+    for (std::size_t column = 0; column < width; ++column) {
+      Vec<Dim> x;
+      x[0] = slice_grid_.first[0] + static_cast<double>(column) * slice_grid_.pixel;
+      x[Dim - 1] = slice_grid_.first[1] + static_cast<double>(row) * slice_grid_.pixel;
+      if constexpr (Dim == 3) x[1] = view_.center[1];
+      const auto state = grid_.at(x);
+      if (!state) continue;
+      const std::size_t i = row * width + column;
+      image.fields[0].components[0][i] = state->density;
+      image.fields[1].components[0][i] = state->pressure;
+      image.fields[2].components[0][i] = state->velocity.norm() / state->sound_speed;
+    }
+  });
+  return image;
+}
+
+template <int Dim>
+std::vector<Channel> GridFrames<Dim>::make_channels(Simulation& sim) {
+  std::vector<Channel> made;
+  if (reads("slice"))
+    sim.timers.time("in situ: slice", [&] {
+      slice_ = make_slice();
+      made.push_back(slice_channel(slice_, Dim, view_.center[1]));
+    });
+  return made;
+}
+
+template class GridFrames<2>;
+template class GridFrames<3>;
+
+}  // namespace ejecta

@@ -1,0 +1,91 @@
+#include "observe/particle_frames.hpp"
+
+#include "observe/field_styles.hpp"
+#include "observe/slice.hpp"
+#include "schemes/kernels.hpp"
+
+namespace ejecta {
+
+namespace {
+
+template <int Dim>
+PicturePlan plan_of(const Sph<Dim>& sph) {
+  PicturePlan plan{choose_view(sph.scene), {}, field_styles(sph.scene, extremes(sph.scene, sph.materials, sph.outset))};
+  for (const Field f : slice_fields(sph.particles)) plan.slice_fields.emplace_back(info(f).name);
+  return plan;
+}
+
+/// What only scripts that draw particles ask for.
+template <int Dim>
+PipelineSettings pipeline_settings(const Sph<Dim>& sph) {
+  const Scene& scene = sph.scene;
+  PipelineSettings settings;
+  settings.particle_radius = 0.6 * scene.spacing;
+  settings.nodes_per_h = scene.numerics.nodes_per_h;
+  settings.radius_per_smoothing_length = 0.6 / settings.nodes_per_h;
+  settings.fragment_target = scene.bodies[target_body(scene, sph.outset.bodies)].name;
+  settings.kernel_support = kernel_support(scene.numerics.kernel);
+  return settings;
+}
+
+}  // namespace
+
+template <int Dim>
+ParticleFrames<Dim>::ParticleFrames(const Simulation& sim, const Sph<Dim>& sph, const std::filesystem::path& folder,
+                                    bool catalyst)
+    : Frames(sim, folder, catalyst, plan_of(sph), pipeline_settings(sph)), sph_(sph) {}
+
+template <int Dim>
+void ParticleFrames<Dim>::resume(const Simulation& sim) {
+  Frames::resume(sim);
+  if (sim.scene.fragments.enabled) fragments_ = tracker_.update(fragment_input(sph_), sph_.scene.fragments);
+}
+
+template <int Dim>
+void ParticleFrames<Dim>::look(Simulation& sim) {
+  if (sim.scene.fragments.enabled)
+    sim.timers.time("in situ: fragment search",
+                    [&] { fragments_ = tracker_.update(fragment_input(sph_), sph_.scene.fragments); });
+}
+
+template <int Dim>
+void ParticleFrames<Dim>::draw_more(Simulation& sim) {
+  if (!sim.scene.insitu.column_density) return;
+  sim.timers.time("in situ: column density", [&] {
+    const PixelGrid grid = panel_grid(view_, sph_.scene, 1);
+    painter_.paint_column_density(make_column_density(sph_.particles, sph_.scene.numerics.kernel, grid), sph_.clock);
+  });
+}
+
+template <int Dim>
+std::vector<Channel> ParticleFrames<Dim>::make_channels(Simulation& sim) {
+  const Particles<Dim>& p = sph_.particles;
+  const Numerics& numerics = sph_.scene.numerics;
+  const double plane_y = view_.center[1];
+  std::vector<Channel> made;
+  const auto make = [&](const char* name, auto&& channel) {
+    if (reads(name)) sim.timers.time(std::string("in situ: ") + name, [&] { made.push_back(channel()); });
+  };
+  make("particles", [&] { return channels_.particles(p, fragments_); });
+  make("slice", [&] { return channels_.slice(p, numerics.kernel, slice_grid_, plane_y); });
+  make("ellipsoids", [&] { return channels_.ellipsoids(p, plane_y, numerics.nodes_per_h); });
+  if (fragments_)
+    make("fragments", [&] { return channels_.fragments(*fragments_, target_body(sph_.scene, sph_.outset.bodies)); });
+  return made;
+}
+
+template <int Dim>
+SampledImage ParticleFrames<Dim>::make_slice() {
+  return ejecta::make_slice(sph_.particles, sph_.scene.numerics.kernel, slice_grid_, view_.center[1]);
+}
+
+template <int Dim>
+void ParticleFrames<Dim>::keep(bool last) {
+  compaction_.collect(sph_.particles, sph_.materials);
+  if (last) compaction_.write(folder_, sph_.materials);
+}
+
+template class ParticleFrames<2>;
+template class ParticleFrames<3>;
+
+}  // namespace ejecta

@@ -1,0 +1,30 @@
+#pragma once
+/// Pictures of particles: slices, all that their columns show, fragments, and how pores are crushed.
+#include "observe/channels.hpp"
+#include "observe/columns.hpp"
+#include "observe/compaction.hpp"
+#include "observe/frames.hpp"
+#include "sph/sph.hpp"
+
+namespace ejecta {
+
+template <int Dim>
+class ParticleFrames final : public Frames {
+ public:
+  ParticleFrames(const Simulation& sim, const Sph<Dim>& sph, const std::filesystem::path& folder, bool catalyst);
+  void resume(const Simulation& sim) override;
+
+ private:
+  void look(Simulation& sim) override;
+  void draw_more(Simulation& sim) override;
+  std::vector<Channel> make_channels(Simulation& sim) override;
+  SampledImage make_slice() override;
+  void keep(bool last) override;
+
+  const Sph<Dim>& sph_;
+  FragmentTracker tracker_;
+  FrameChannels<Dim> channels_;
+  CompactionPlot compaction_;
+};
+
+}  // namespace ejecta
