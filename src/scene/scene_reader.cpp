@@ -92,6 +92,10 @@ Scene interpret(Document document, const std::vector<std::string>& overrides, co
   for (const SceneSection& section : context.sections)
     if (document.holds(section.name) || asks_for(document, section.scheme))
       scene.sections[section.name] = section.settings();
+  for (const SceneSection& section : context.sections)
+    if (document.holds(section.name) && !section.scheme.empty() && !asks_for(document, section.scheme))
+      problems.add(document.origin(section.name), section.name,
+                   fmt::format("expected numerics.scheme = \"{}\" with it", section.scheme));
   if (document.holds("charge")) scene.charge.emplace();
   if (document.holds("gas")) scene.gas.emplace();
   Describer description(document);

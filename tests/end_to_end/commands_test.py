@@ -62,8 +62,9 @@ class Commands(RunTest):
         for path in keys:
             section, key = path.rsplit(".", 1)
             default = re.search(r"; default (.+)$", sections[section][key])
-            # Bodies have names; the dimension belongs to their shapes.
-            others = section in ("bodies", "bodies.profile", "insitu.ranges") or section.startswith("materials")
+            # Bodies have names; the dimension belongs to their shapes; a scene need not be a blast, nor on a grid.
+            others = (section in ("bodies", "bodies.profile", "insitu.ranges", "charge", "gas", "grid")
+                      or section.startswith("materials"))
             if default and not others and path != "scene.dimension":
                 defaults[path] = default[1].strip('"')
         self.assertGreater(len(defaults), 30)

@@ -11,7 +11,7 @@ namespace ejecta {
 template <int Dim>
 void expect_pictures_of_tensors(int along) {
   const std::string folder = fresh_folder("rod_" + std::to_string(Dim));
-  const std::string shipped = std::filesystem::path(default_pipelines(false)[0]).parent_path().string();
+  const std::string shipped = std::filesystem::path(default_pipelines(scene_with(false))[0]).parent_path().string();
   const std::vector<std::string> scripts{shipped + "/ellipses.py", shipped + "/damage.py"};
   check_pipeline_scripts(scripts);
   CatalystBridge bridge(scripts, rod_settings(folder, Dim));

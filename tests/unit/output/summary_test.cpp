@@ -29,6 +29,7 @@ TEST(Summary, HasExactlyThePromisedKeysInOrder) {
                                           "time_s",
                                           "wall_s",
                                           "particle_steps_per_s",
+                                          "cell_steps_per_s",
                                           "pair_interactions_per_s",
                                           "neighbours_mean",
                                           "bytes_per_particle",
