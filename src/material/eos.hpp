@@ -11,6 +11,7 @@
 #include <optional>
 #include <variant>
 
+#include "material/equilibrium_air.hpp"
 #include "material/ideal_gas.hpp"
 #include "material/linear_eos.hpp"
 #include "material/mie_grueneisen.hpp"
@@ -18,7 +19,7 @@
 
 namespace ejecta {
 
-using Eos = std::variant<IdealGas, Tillotson, MieGrueneisen, LinearEos>;
+using Eos = std::variant<IdealGas, Tillotson, MieGrueneisen, LinearEos, EquilibriumAir>;
 
 /// Density of the unstressed, non-porous material [kg/m^3].
 inline double reference_density(const Eos& eos) {

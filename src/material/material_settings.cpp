@@ -20,10 +20,11 @@ struct Named {
   Model initial;
 };
 
-const std::array<Named<Eos>, 4> eos_models{{{"ideal_gas", IdealGas{}},
+const std::array<Named<Eos>, 5> eos_models{{{"ideal_gas", IdealGas{}},
                                             {"tillotson", Tillotson{}},
                                             {"mie_grueneisen", MieGrueneisen{}},
-                                            {"linear", LinearEos{}}}};
+                                            {"linear", LinearEos{}},
+                                            {"equilibrium_air", EquilibriumAir{}}}};
 const std::array<Named<Strength>, 6> strength_models{{{"von_mises", VonMises{}},
                                                       {"drucker_prager", DruckerPrager{}},
                                                       {"lundborg", Lundborg{}},
@@ -124,6 +125,10 @@ void describe(Describer& d, LinearEos& l) {
   constant(d, "density", l.rho0, "kg/m^3", positive, "reference density, without pores");
   constant(d, "c0", l.c0, "m/s", positive, "sound speed");
   d.number("gamma0", l.gamma0, "1", non_negative, "Grueneisen parameter; 0: no heat in the pressure");
+}
+
+void describe(Describer& d, EquilibriumAir& a) {
+  constant(d, "density", a.rho0, "kg/m^3", positive, "of a body whose density the scene does not give");
 }
 
 constexpr Limits below_right_angle{.min = 0, .max = std::numbers::pi / 2};

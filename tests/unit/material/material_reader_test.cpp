@@ -92,6 +92,9 @@ TEST(ReadMaterial, GasHasNothingElse) {
   const Material air = read_material("air", {library});
   EXPECT_EQ(std::get<IdealGas>(air.eos).gamma, 1.4);
   EXPECT_FALSE(air.solid() || air.strength || air.damage || air.porosity);
+  const Material hot = read_material("air_equilibrium", {library});
+  EXPECT_TRUE(hot.gas());
+  EXPECT_EQ(hot.bulk_density(), air.bulk_density());
 }
 
 TEST(ReadMaterial, TheFirstFolderWins) {
@@ -163,7 +166,8 @@ TEST(ReadMaterial, RefusesWithReason) {
   EXPECT_EQ(problems_of_text("[eos]\nmodel = \"ideal_gas\"\ngamma = 1.4\n"),
             One{"m.toml:1: eos.density: missing: of a body whose density the scene does not give"});
   EXPECT_EQ(problems_of_text("[eos]\nmodel = \"jwl\"\ngamma = 1.4\n"),
-            One{"m.toml:2: eos.model: expected one of ideal_gas, tillotson, mie_grueneisen, linear, got \"jwl\""});
+            One{"m.toml:2: eos.model: expected one of ideal_gas, tillotson, mie_grueneisen, linear, "
+                "equilibrium_air, got \"jwl\""});
   EXPECT_EQ(
       problems_of_text(tillotson + "[damage]\nmodel = \"grady_kipp\"\nweibull_m = 9\nweibull_k = \"5e34 1/m^3\"\n"),
       One{"m.toml:14: damage.model: needs section [elastic]"});
@@ -335,7 +339,7 @@ TEST(Reference, NamesEveryConstantAndEveryModel) {
                                 "c0"})
     EXPECT_NE(text.find("\n  " + key + " "), std::string::npos) << key;
   for (const std::string model : {"collins", "two_power", "quadratic", "ideal_gas", "grady_kipp", "grady_kipp_tensor",
-                                  "mie_grueneisen", "linear", "steinberg_guinan", "johnson_cook"})
+                                  "mie_grueneisen", "linear", "equilibrium_air", "steinberg_guinan", "johnson_cook"})
     EXPECT_NE(text.find(": " + model), std::string::npos) << model;
 }
 
