@@ -22,11 +22,16 @@ std::map<std::string, std::string> colourable_fields() {
 
 }  // namespace
 
-Job read_job(const std::string& scene_file, const std::vector<std::string>& overrides) {
+Job read_input(const std::string& scene_file, const std::vector<std::string>& overrides) {
   Job job;
   job.scene = read_scene(scene_file, overrides, {package_sections(), colourable_fields()});
   job.materials = read_materials(job.scene, material_library());
   job.resolved = resolved_toml(job.scene, job.materials);
+  return job;
+}
+
+Job read_job(const std::string& scene_file, const std::vector<std::string>& overrides) {
+  Job job = read_input(scene_file, overrides);
   check_memory(job.scene, job.materials.list);
   set_threads(job.scene.threads.value_or(available_cores()));
   const InSitu& insitu = job.scene.insitu;

@@ -65,6 +65,16 @@ int main(int argc, char** argv) {
                                  "memory); print stages, columns, memory and time");
   check->add_option("scene", options.scene_file, "scene file (TOML)")->required();
   overrides(check);
+  ReferenceOptions reference_options;
+  CLI::App* reference_app = app.add_subcommand(
+      "reference", "solve the scene in one dimension, finely: what runs of it are compared with, and how well it has converged");
+  reference_app->add_option("scene", options.scene_file, "scene file (TOML)")->required();
+  reference_app->add_option("--spacing", reference_options.spacing,
+                            "width of a cell, e.g. 5mm (default: charge radius / 100, else resolution.spacing / 4)");
+  reference_app->add_option("--geometry", reference_options.geometry,
+                            "planar, cylindrical or spherical (default: that of the charge, else planar along x)");
+  reference_app->add_option("--out", options.out, "folder (default: runs/<scene.name>_reference)");
+  overrides(reference_app);
   CLI::App* describe =
       app.add_subcommand("describe", "every key of a scene or material: unit, range, default, meaning");
   describe->add_option("section", section, "one section, e.g. numerics or materials");
@@ -85,6 +95,12 @@ int main(int argc, char** argv) {
 
   try {
     if (*run) return run_command(options);
+    if (*reference_app) {
+      reference_options.scene_file = options.scene_file;
+      reference_options.out = options.out;
+      reference_options.overrides = options.overrides;
+      return reference_command(reference_options);
+    }
     if (*check) return check_command(options.scene_file, options.overrides);
     if (*movie) return movie_command(folder, frames_per_second);
     if (*replay) return replay_command(folder, options.out);

@@ -21,7 +21,18 @@ struct RunOptions {
   bool overwrite = false;              ///< replace an earlier run in the run folder
 };
 
+/// What the command line of `ejecta reference` says.
+struct ReferenceOptions {
+  std::string scene_file;
+  std::string out;                     ///< folder; empty: runs/<scene.name>_reference
+  std::string spacing;                 ///< a length; empty: that which the problem suggests
+  std::string geometry;                ///< a word; empty: that of the scene
+  std::vector<std::string> overrides;  ///< key=value
+};
+
 int run_command(const RunOptions& options);
+/// The one-dimensional solution that runs of a scene are compared with, and how well it has converged.
+int reference_command(const ReferenceOptions& options);
 /// Sets the scene up as a run does, so that whatever refuses a run before its first step refuses the check.
 int check_command(const std::string& scene_file, const std::vector<std::string>& overrides);
 int movie_command(const std::string& folder, int frames_per_second);

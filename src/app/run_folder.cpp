@@ -72,6 +72,15 @@ std::optional<std::string> why_precious(const RunOptions& options, const fs::pat
   return std::nullopt;
 }
 
+/// The nearest existing parent must let us in.
+void check_writable(const fs::path& folder) {
+  fs::path parent = fs::absolute(folder);
+  while (!fs::exists(parent)) parent = parent.parent_path();
+  if (!is_writable(parent)) throw InputError(parent.string() + ": expected a folder to write to, got no permission");
+}
+
+const Written written_by_reference{"", {"profile.csv", "shock.csv"}};
+
 }  // namespace
 
 void check_run_folder(const RunOptions& options, const fs::path& folder) {
@@ -94,10 +103,7 @@ void check_run_folder(const RunOptions& options, const fs::path& folder) {
                      ": expected a new folder, got one with files in it; use --out DIR for another, "
                      "--restart to go on from its last checkpoint, or --overwrite to replace an earlier run");
   }
-  // The nearest existing parent must let us in.
-  fs::path parent = fs::absolute(folder);
-  while (!fs::exists(parent)) parent = parent.parent_path();
-  if (!is_writable(parent)) throw InputError(parent.string() + ": expected a folder to write to, got no permission");
+  check_writable(folder);
 }
 
 void clear_run_folder(const fs::path& folder) {
@@ -112,6 +118,24 @@ void clear_run_folder(const fs::path& folder) {
     for (const fs::path& file : files) fs::remove(file);
     if (!place.folder.empty() && fs::is_empty(inside) && !fs::is_symlink(inside)) fs::remove(inside);
   }
+}
+
+void check_reference_folder(const fs::path& folder) {
+  if (fs::exists(folder) && !fs::is_directory(folder))
+    throw InputError(folder.string() + ": expected a folder for the reference, got a file");
+  if (fs::exists(folder))
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+      if (!entry.is_regular_file() || !is_written(written_by_reference, entry.path().filename().string()))
+        throw InputError(folder.string() + ": expected a new folder or an earlier reference, got a folder with " +
+                         entry.path().filename().string() + " in it; use --out DIR for another");
+  check_writable(folder);
+}
+
+void clear_reference_folder(const fs::path& folder) {
+  std::error_code failure;
+  fs::create_directories(folder, failure);
+  if (failure) throw OutputError(folder, failure.message());
+  for (const std::string& name : written_by_reference.names) fs::remove(folder / name);
 }
 
 }  // namespace ejecta

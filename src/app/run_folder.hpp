@@ -1,5 +1,5 @@
 #pragma once
-/// The folder of a run: when a run may have it, and which of the files in it are a run's own.
+/// The folder of a run, or of a reference: when they may have it, and which of the files in it are their own.
 #include <filesystem>
 
 #include "app/options.hpp"
@@ -13,5 +13,12 @@ void check_run_folder(const RunOptions& options, const std::filesystem::path& fo
 /// Removes the files that a run writes and the folders that this empties. All others stay, as do symbolic links to
 /// folders. Throws OutputError.
 void clear_run_folder(const std::filesystem::path& folder);
+
+/// A reference takes a folder that is new, empty, or holds nothing but an earlier reference. Throws InputError
+/// otherwise; nothing is touched.
+void check_reference_folder(const std::filesystem::path& folder);
+
+/// Makes the folder, or removes the earlier reference in it. Throws OutputError.
+void clear_reference_folder(const std::filesystem::path& folder);
 
 }  // namespace ejecta
