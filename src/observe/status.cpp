@@ -15,12 +15,14 @@ Status::Status(const Simulation& sim, std::filesystem::path folder, const Frames
       first_work_(element_steps(sim)) {
   status_.scene = heading(sim.scene);
   status_.time_end = sim.scene.time_end;
-  for (const auto& package : sim.packages) status_.particles += static_cast<std::int64_t>(package->elements());
+  if (sim.packages.size() == 1) status_.element = sim.packages[0]->element();
   if (sim.scene.fragments.enabled) status_.smallest_fragment = context_.share(context_.smallest);
   if (!context_.bodies.empty()) status_.fragment_target = context_.bodies[context_.target];
 }
 
 void Status::gather(const Simulation& sim) {
+  status_.particles = 0;
+  for (const auto& package : sim.packages) status_.particles += static_cast<std::int64_t>(package->elements());
   status_.step = sim.clock.step;
   status_.time = sim.clock.time;
   status_.dt = sim.clock.dt;

@@ -107,6 +107,7 @@ std::string monitor_json(const MonitorStatus& s, std::int64_t updated) {
   add("time_end_s", to_json(s.time_end));
   add("dt_s", to_json(s.dt));
   add("limited_by", to_json(s.limited_by));
+  add("element", to_json(s.element));
   add("particles", to_json(s.particles));
   add("particle_steps_per_s", to_json(s.particle_steps_per_s));
   add("eta_s", to_json(s.eta_s));

@@ -38,6 +38,7 @@ struct MonitorStatus {
   std::int64_t step = 0;
   double time = 0, time_end = 0, dt = 0;  ///< s
   std::string limited_by;                 ///< winning vote of the time step
+  std::string element = "particle";  ///< what there are so many of
   std::int64_t particles = 0;
   std::optional<double> particle_steps_per_s;
   std::optional<double> eta_s;                   ///< wall time still needed
