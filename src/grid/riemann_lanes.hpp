@@ -13,13 +13,14 @@ struct Side {
   V x[Gas::extras > 0 ? Gas::extras : 1];
 };
 
-/// Flux of Harten, Lax and van Leer with the contact restored [Toro, Spruce & Speares 1994], with the wave speeds of
-/// Einfeldt (1988, eqs 5.1 to 5.6), which bound those of the exact solution of an ideal gas. `n` is the axis across the
-/// face.
+/// Speeds of the outer waves by Einfeldt (1988, eqs 5.1 to 5.6), which bound those of the exact solution of an ideal gas.
+/// `n` is the axis across the face.
+struct OuterWaves {
+  V left, right;
+};
 template <int Dim, int n, class Gas>
-[[gnu::always_inline]] inline void hllc(const Gas& gas, const Side<Dim, Gas>& left, const Side<Dim, Gas>& right,
-                                        V (&flux)[Dim + 2]) {
-  constexpr int p = pressure_at<Dim>;
+[[gnu::always_inline]] inline OuterWaves outer_waves(const Gas& gas, const Side<Dim, Gas>& left,
+                                                     const Side<Dim, Gas>& right) {
   const V *l = left.w, *r = right.w;
   const V ul = l[1 + n], ur = r[1 + n];
   constexpr double guard = 1e-200;  // cold matter has a speed of sound too, so that nothing is divided by 0
@@ -29,8 +30,37 @@ template <int Dim, int n, class Gas>
   const V mean_u = (root_l * ul + root_r * ur) * share;
   const V mean_c = simd::square_root(
       V((root_l * c2l + root_r * c2r) * share + 0.5 * (root_l * root_r) * (share * share) * (apart * apart)));
-  const V sl = simd::min(V(ul - simd::square_root(c2l)), V(mean_u - mean_c));
-  const V sr = simd::max(V(ur + simd::square_root(c2r)), V(mean_u + mean_c));
+  return {simd::min(V(ul - simd::square_root(c2l)), V(mean_u - mean_c)),
+          simd::max(V(ur + simd::square_root(c2r)), V(mean_u + mean_c))};
+}
+
+/// Flux of two waves [Harten, Lax & van Leer 1983]: contacts and shear are smeared as fast as sound runs.
+template <int Dim, int n, class Gas>
+void hll(const Gas& gas, const Side<Dim, Gas>& left, const Side<Dim, Gas>& right, V (&flux)[Dim + 2]) {
+  constexpr int p = pressure_at<Dim>;
+  const V *l = left.w, *r = right.w;
+  const auto [outer_left, outer_right] = outer_waves<Dim, n>(gas, left, right);
+  const V sl = simd::min(outer_left, V{}), sr = simd::max(outer_right, V{}), apart = simd::reciprocal(V(sr - sl));
+  const V share_l = sr * apart, share_r = -sl * apart, exchange = sl * sr * apart;
+  const V energy_l = gas.template energy<Dim>(l), energy_r = gas.template energy<Dim>(r);
+  const V mass_l = l[0] * l[1 + n], mass_r = r[0] * r[1 + n];
+  flux[0] = share_l * mass_l + share_r * mass_r + exchange * (r[0] - l[0]);
+  for (int a = 0; a < Dim; ++a)
+    flux[1 + a] = share_l * (mass_l * l[1 + a]) + share_r * (mass_r * r[1 + a]) +
+                  exchange * (r[0] * r[1 + a] - l[0] * l[1 + a]);
+  flux[1 + n] += share_l * l[p] + share_r * r[p];
+  flux[Dim + 1] = share_l * (l[1 + n] * (energy_l + l[p])) + share_r * (r[1 + n] * (energy_r + r[p])) +
+                  exchange * (energy_r - energy_l);
+}
+
+/// The same with the contact restored [Toro, Spruce & Speares 1994].
+template <int Dim, int n, class Gas>
+[[gnu::always_inline]] inline void hllc(const Gas& gas, const Side<Dim, Gas>& left, const Side<Dim, Gas>& right,
+                                        V (&flux)[Dim + 2]) {
+  constexpr int p = pressure_at<Dim>;
+  const V *l = left.w, *r = right.w;
+  const V ul = l[1 + n], ur = r[1 + n];
+  const auto [sl, sr] = outer_waves<Dim, n>(gas, left, right);
   const V al = l[0] * (sl - ul), ar = r[0] * (sr - ur);  // mass through either wave
   const V contact = (r[p] - l[p] + al * ul - ar * ur) * simd::reciprocal(V(al - ar));
   const auto from_left = contact >= 0;

@@ -41,22 +41,27 @@ template <SlopeLimiter limiter>
   return back * ahead > 0 ? signed_size : V{};
 }
 
-/// 1 in smooth flow, 0 inside a strong shock along an axis [Colella & Woodward 1984, A.1; constants of Colella 1990]:
-/// pressures two cells behind to two ahead, velocities along the axis one behind and one ahead.
-[[gnu::always_inline]] inline V flatness(V p_2, V p_1, V p1, V p2, V u_1, V u1) {
+/// `flat` is 1 in smooth flow, 0 inside a strong shock along an axis that is steep [Colella & Woodward 1984, A.1; constants
+/// of Colella 1990]; `strong` is 1 in a strong shock, steep or not, else 0.
+struct Shock {
+  V flat, strong;
+};
+/// Of pressures two cells behind to two ahead, and velocities along the axis one behind and one ahead.
+[[gnu::always_inline]] inline Shock shock_of(V p_2, V p_1, V p1, V p2, V u_1, V u1) {
   constexpr double strong = 1.0 / 3, from = 0.75, to = 0.85, tiny = 1e-200;
   const V jump = simd::magnitude(V(p1 - p_1)), wide = simd::magnitude(V(p2 - p_2));
   // z = jump/wide; 1 - clamp((z - from)/(to - from))
   const V steep = (jump - from * wide) * simd::reciprocal(V((to - from) * wide + tiny));
   const V flat = 1 - simd::max(simd::min(steep, V{} + 1), V{});
   const auto shock = (jump > strong * simd::min(simd::magnitude(p1), simd::magnitude(p_1))) & (u_1 > u1);
-  return shock ? flat : V{} + 1;
+  return {shock ? flat : V{} + 1, shock ? V{} + 1 : V{}};
 }
 
 template <int Dim, class Gas, SlopeLimiter limiter, RiemannSolver solver>
 class Sweep final : public TileSweep<Dim> {
  public:
-  Sweep(const Gas& gas, const Eos& eos, bool flattening) : gas_(gas), eos_(eos), flattening_(flattening) {
+  Sweep(const Gas& gas, const Eos& eos, const GridSettings& settings)
+      : gas_(gas), eos_(eos), flattening_(settings.flattening), smearing_(settings.smearing) {
     const auto shape = tile_shape<Dim>();
     pitch_ = shape[0] + 2 * halo + width;
     rows_ = Dim == 3 ? shape[1] + 2 * halo : 1;
@@ -91,7 +96,7 @@ class Sweep final : public TileSweep<Dim> {
   using Sides = Side<Dim, Gas>;
   static constexpr int C = conserved_count<Dim>, W = Sides::values, X = Gas::extras, P = pressure_at<Dim>;
   static constexpr int halo = 3, last = Dim - 1;  ///< the axis that the sweep runs along
-  static constexpr std::size_t cell_planes = W + X + 1, state_planes = 2 * Dim * W, flux_planes = Dim * C;
+  static constexpr std::size_t cell_planes = W + X + 1, state_planes = 2 * Dim * W + Dim, flux_planes = Dim * C;
   static constexpr std::size_t kept = 8, kept_states = 2;  ///< planes of cells; five are in use
 
   double* cells(int k) { return cells_[static_cast<std::size_t>(k + 8) % kept]; }
@@ -101,6 +106,10 @@ class Sweep final : public TileSweep<Dim> {
   double* state(int k, int axis, int upper, int value) {
     return states_[static_cast<std::size_t>(k + 2) % 2] +
            static_cast<std::size_t>((axis * 2 + upper) * W + value) * plane_;
+  }
+  /// 1 in the cells of plane k that a strong shock along `axis` runs through, else 0.
+  double* strong(int k, int axis) {
+    return states_[static_cast<std::size_t>(k + 2) % 2] + static_cast<std::size_t>(2 * Dim * W + axis) * plane_;
   }
   double* first(int k, int axis, int value) {
     return first_[static_cast<std::size_t>(k + 2) % 2] + static_cast<std::size_t>(axis * C + value) * plane_;
@@ -131,12 +140,24 @@ class Sweep final : public TileSweep<Dim> {
     for (int v = 0; v < X; ++v) s.x[v] = load(cell(k, W + v) + at);
     return s;
   }
+  /// Through faces across an axis between the cells at `before` of plane `below` and at `at` of plane k. A flux that
+  /// keeps contacts keeps apart the rows that a shock runs along, and they drift apart [Quirk 1994]: there, it is one
+  /// that smears.
   template <int axis>
-  [[gnu::always_inline]] inline void flux(const Sides& l, const Sides& r, V (&f)[C]) const {
+  [[gnu::always_inline]] inline void flux(const Sides& l, const Sides& r, int below, std::size_t before, int k,
+                                          std::size_t at, V (&f)[C]) {
     if constexpr (solver == RiemannSolver::exact)
       exact_flux<Dim, axis>(gas_, l, r, f);
     else
       hllc<Dim, axis>(gas_, l, r, f);
+    V along{};
+    for (int other = 0; other < Dim; ++other)
+      if (other != axis)
+        along = simd::max(along, simd::max(load(strong(below, other) + before), load(strong(k, other) + at)));
+    if (!simd::any_less(V{}, along)) return;
+    V smeared[C];
+    hll<Dim, axis>(gas_, l, r, smeared);
+    for (int c = 0; c < C; ++c) f[c] = along > 0 ? smeared[c] : f[c];
   }
   template <int axis>
   void first_fluxes(const Tile<Dim>& tile, int k);
@@ -177,7 +198,7 @@ class Sweep final : public TileSweep<Dim> {
 
   Gas gas_;
   const Eos& eos_;
-  bool flattening_;
+  bool flattening_, smearing_;
   int pitch_, rows_;
   std::size_t plane_;
   double half_ = 0, whole_ = 0;  ///< dt/(2 dx), dt/dx
@@ -282,10 +303,12 @@ void Sweep<Dim, Gas, limiter, solver>::predict(const Tile<Dim>& tile, int k) {
     V w[W], x[X > 0 ? X : 1], flat = V{} + 1;
     for (int v = 0; v < W; ++v) w[v] = load(cell(k, v) + at);
     for (int v = 0; v < X; ++v) x[v] = load(cell(k, W + v) + at);
-    if (limiter != SlopeLimiter::none && flattening_)
-      for (int a = 0; a < Dim; ++a)
-        flat = simd::min(flat, flatness(neighbour(P, a, -2), neighbour(P, a, -1), neighbour(P, a, 1),
-                                        neighbour(P, a, 2), neighbour(1 + a, a, -1), neighbour(1 + a, a, 1)));
+    for (int a = 0; a < Dim; ++a) {
+      const Shock shock = shock_of(neighbour(P, a, -2), neighbour(P, a, -1), neighbour(P, a, 1), neighbour(P, a, 2),
+                                   neighbour(1 + a, a, -1), neighbour(1 + a, a, 1));
+      if (flattening_) flat = simd::min(flat, shock.flat);
+      store(strong(k, a) + at, smearing_ ? shock.strong : V{});
+    }
     const V stiffness = w[0] * gas_.template sound2<Dim>(w, x), volume = simd::reciprocal(w[0]);
     for_axes<Dim>([&](auto axis) __attribute__((always_inline)) {
       constexpr int a = axis;
@@ -322,7 +345,8 @@ void Sweep<Dim, Gas, limiter, solver>::first_fluxes(const Tile<Dim>& tile, int k
   for_cells(a == 0 ? 0 : -1, nx + 1, a == 1 && a != last ? 0 : -1, ny + 1,
             [&](std::size_t at) __attribute__((always_inline)) {
               V f[C];
-              flux<a>(side(below, a, 1, at + static_cast<std::size_t>(back)), side(k, a, 0, at), f);
+              const std::size_t before = at + static_cast<std::size_t>(back);
+              flux<a>(side(below, a, 1, before), side(k, a, 0, at), below, before, k, at, f);
               for (int c = 0; c < C; ++c) store(first(k, a, c) + at, f[c]);
             });
 }
@@ -347,7 +371,7 @@ void Sweep<Dim, Gas, limiter, solver>::final_fluxes(const Tile<Dim>& tile, int k
       }
     }
     V f[C];
-    flux<a>(l, r, f);
+    flux<a>(l, r, below, before, k, at, f);
     for (int c = 0; c < C; ++c) store(final_of(k, a, c) + at, f[c]);
   });
 }
@@ -513,11 +537,11 @@ TileResult<Dim> Sweep<Dim, Gas, limiter, solver>::sweep_with(const Box<Dim>& box
 template <int Dim, class Gas, SlopeLimiter limiter>
 std::unique_ptr<TileSweep<Dim>> with_solver(const Gas& gas, const Eos& eos, const GridSettings& settings) {
   if (settings.riemann == RiemannSolver::hllc)
-    return std::make_unique<Sweep<Dim, Gas, limiter, RiemannSolver::hllc>>(gas, eos, settings.flattening);
+    return std::make_unique<Sweep<Dim, Gas, limiter, RiemannSolver::hllc>>(gas, eos, settings);
   if constexpr (Gas::carries_energy)
     throw InputError("grid.riemann: expected hllc, got exact, which is known for ideal gases alone");
   else
-    return std::make_unique<Sweep<Dim, Gas, limiter, RiemannSolver::exact>>(gas, eos, settings.flattening);
+    return std::make_unique<Sweep<Dim, Gas, limiter, RiemannSolver::exact>>(gas, eos, settings);
 }
 
 template <int Dim, class Gas>

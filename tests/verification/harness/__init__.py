@@ -4,7 +4,7 @@
 
 A case is a folder with a scene and a `case.py` that defines CASES, a list of instances of Case.
 """
-from .base import Bound, Case, load_cases
+from .base import Bound, Case, GridCase, load_cases
 from .ladder import Measurement, Row, measure, rows
 from .norms import binned, fall, l1, l2, linf, order, relative
 from .run import Run, RunFailed, State, execute

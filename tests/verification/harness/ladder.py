@@ -34,11 +34,11 @@ class Row:
     density: str
     kernel: str
     nodes_per_h: float
-    gradient_correction: str  # auto, true, false
+    gradient_correction: str  # auto, true, false; of grids this and the three above are empty
     courant: float
     precision: str
     threads: int
-    particles: int
+    particles: int  # or cells, at the end
     steps: int
     error: float
     order: float  # against the next coarser resolution; nan for the coarsest
@@ -64,10 +64,15 @@ def rows(case, measurements):
     for key in measurements[0].errors if measurements else ():
         for coarse, m in zip([None, *measurements], measurements):
             numerics, error = m.scene["numerics"], m.errors[key]
+            if numerics["scheme"] == "fvm":
+                courant = m.scene["grid"].get("courant", 0.8 if m.summary["dimension"] == 2 else 0.45)
+                method = "", "", float("nan"), "", courant
+            else:
+                method = (numerics["density"], numerics["kernel"], numerics["nodes_per_h"],
+                          str(numerics["gradient_correction"]).lower(), numerics["courant"])
             result.append(Row(
-                case.name, *key, m.resolution, m.summary["dimension"], numerics["scheme"], numerics["density"],
-                numerics["kernel"], numerics["nodes_per_h"], str(numerics["gradient_correction"]).lower(), numerics["courant"],
-                numerics["precision"], m.summary["threads"], m.summary["particles"], m.summary["steps"], error,
+                case.name, *key, m.resolution, m.summary["dimension"], numerics["scheme"], *method, numerics["precision"],
+                m.summary["threads"], m.summary.get("cells") or m.summary["particles"], m.summary["steps"], error,
                 order([coarse.resolution, m.resolution], [coarse.errors[key], error]) if coarse else float("nan"),
                 m.core_seconds, m.particle_steps))
     return result

@@ -1,4 +1,4 @@
-"""One run of the program, and the particles and tables it left."""
+"""One run of the program, and the particles or cells and the tables it left."""
 import csv
 import json
 import os
@@ -10,6 +10,8 @@ from pathlib import Path
 
 import h5py
 import numpy as np
+
+from .grid_state import GridState
 
 SOURCE = Path(__file__).resolve().parents[3]
 PROGRAM = os.environ.get("EJECTA", str(SOURCE / "build" / "ejecta"))
@@ -83,17 +85,28 @@ class Run:
 
     @cached_property
     def final(self):
-        return State(max((self.folder / "checkpoints").glob("*.h5")))
+        return self.state(max((self.folder / "checkpoints").glob("*.h5")))
+
+    def state(self, file):
+        """What a full dump holds: particles, or the cells of a grid."""
+        if not self.on_grid:
+            return State(file)
+        spacing = number(self.scene["resolution"]["spacing"])
+        return GridState(file, spacing, next(iter(self.scene["materials"].values()))["eos"]["gamma"])
 
     @cached_property
     def states(self):
         """The snapshots (output.snapshots) in the order of time."""
-        return [State(file) for file in sorted((self.folder / "snapshots").glob("*.h5"))]
+        return [self.state(file) for file in sorted((self.folder / "snapshots").glob("*.h5"))]
 
     def body(self, name, state=None):
         """Mask of the particles of a body."""
         names = [body["name"] for body in self.scene["bodies"]]
         return (state or self.final)["body"] == names.index(name)
+
+    @property
+    def on_grid(self):
+        return self.scene["numerics"]["scheme"] == "fvm"
 
     @property
     def dimension(self):
@@ -107,6 +120,9 @@ class Run:
 
     @property
     def particle_steps(self):
+        """Or steps of cells: those at rest are skipped, and a box that grows had fewer at first."""
+        if self.on_grid:
+            return round(self.summary["cell_steps_per_s"] * self.summary["wall_s"] * (1 - self.summary["insitu_share"]))
         return self.summary["particles"] * self.summary["steps"]
 
     @property
@@ -116,12 +132,18 @@ class Run:
 
     @property
     def mass_drift(self):
+        """Without what came and went through the faces of a grid."""
+        if self.on_grid:
+            return self.summary["mass_error_rel"]
         return float(np.ptp(self.history["mass"]) / self.history["mass"][0])
 
     @property
     def momentum_drift(self):
         """Largest change of linear momentum along the axes without walls, relative to a bound on the sum of m times the
-        speeds of particles and of sound (Cauchy-Schwarz); nan if there is a wall on every axis."""
+        speeds of particles and of sound (Cauchy-Schwarz); nan if there is a wall on every axis. The books of a grid
+        hold what faces took, walls or not."""
+        if self.on_grid:
+            return self.summary["momentum_error_rel"]
         kinds = [self.scene["boundary"][axis] for axis in "xyz"[:self.dimension]]
         energy = self.history["kinetic energy"] + np.abs(self.history["internal energy"])
         scale = np.sqrt(2 * self.history["mass"] * energy).max()

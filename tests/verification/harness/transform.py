@@ -15,7 +15,8 @@ def minus(value):
 def turned(scene):
     """A scene (as a dictionary) turned by 90 degrees."""
     scene = copy.deepcopy(scene)
-    for body in scene["bodies"]:
+    charge = [scene["charge"]] if "charge" in scene else []
+    for body in [*scene.get("bodies", []), *charge]:
         for key in ("center", "axis", "velocity"):
             if key in body:
                 x, y, *z = body[key]
@@ -25,8 +26,8 @@ def turned(scene):
             body["size"] = [y, x, *z]
         if "profile" in body:
             body["profile"] = turned_profile(body["profile"])
-    boundary = scene["boundary"]
-    boundary["x"], boundary["y"] = boundary["y"], boundary["x"]
+    faces = {"x": "y", "y": "x", "x_min": "y_min", "x_max": "y_max", "y_min": "x_max", "y_max": "x_min"}
+    boundary = scene["boundary"] = {faces.get(key, key): value for key, value in scene["boundary"].items()}
     if "min" in boundary:
         (x0, y0, *z0), (x1, y1, *z1) = boundary["min"], boundary["max"]
         boundary["min"], boundary["max"] = [minus(y1), x0, *z0], [minus(y0), x1, *z1]

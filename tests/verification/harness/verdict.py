@@ -57,7 +57,7 @@ def judge_errors(case, measurements):
 def judge_conservation(case, measurements):
     """Energy, momentum and mass; the sum of the masses may be taken in another order each time."""
     complaints = []
-    for name, limit in (("energy", case.energy), ("momentum", case.momentum), ("mass", 1e-14)):
+    for name, limit in (("energy", case.energy), ("momentum", case.momentum), ("mass", case.mass)):
         worst = max((getattr(m, f"{name}_drift") for m in measurements), key=lambda d: -1 if math.isnan(d) else d)
         if name == "momentum" and math.isnan(worst):
             print("momentum: walls on every axis")
