@@ -19,7 +19,7 @@ constexpr auto enum_names(SlopeLimiter) {
 struct GridSettings final : SectionSettings {
   RiemannSolver riemann = RiemannSolver::hllc;
   SlopeLimiter limiter = SlopeLimiter::monotonised_central;  ///< none: first order
-  bool flattening = true;                                    ///< slopes fade inside strong shocks
+  bool flattening = false;                                   ///< slopes fade inside strong shocks
   bool smearing = true;                                      ///< along strong shocks fluxes smear contacts and shear
   double courant = unset;                                    ///< not set: 0.8 in 2D, 0.45 in 3D
 

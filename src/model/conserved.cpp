@@ -36,7 +36,7 @@ void add_step(ExternalLoad& total, const ExternalLoad& before, const ExternalLoa
 
 ConservationErrors conservation_errors(const Totals& initial, const Totals& now, const ExternalLoad& external) {
   auto relative = [](double difference, double scale) { return scale > 0 ? difference / scale : difference; };
-  return {relative(std::abs(now.mass - initial.mass - external.mass), std::max(initial.mass, now.mass)),
+  return {relative(std::abs(now.mass - initial.mass - external.mass), initial.mass + std::max(0.0, external.mass)),
           relative((now.momentum - initial.momentum - external.impulse).norm(),
                    std::max(initial.momentum_scale, now.momentum_scale)),
           relative((now.angular_momentum - initial.angular_momentum - external.angular_impulse).norm(),
