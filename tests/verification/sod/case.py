@@ -83,4 +83,11 @@ class SodGamma53(Sod):
     )
 
 
+class WithRiemannProblems:
+    """The same with Riemann problems between neighbours."""
+
+    def settings(self, resolution):
+        return {**super().settings(resolution), "numerics.scheme": "gsph"}
+
+
 CASES = [Sod(), SodGamma53()]
