@@ -13,8 +13,8 @@ constexpr auto enum_names(Kernel) {
 constexpr auto enum_names(SchemeKind) {
   return std::to_array<std::string_view>({"sph", "asph", "fvm", "gsph", "agsph"});
 }
-constexpr auto enum_names(RiemannSolver) { return std::to_array<std::string_view>({"approximate", "exact"}); }
-constexpr auto enum_names(SlopeLimiter) {
+constexpr auto enum_names(PairRiemann) { return std::to_array<std::string_view>({"approximate", "exact"}); }
+constexpr auto enum_names(PairLimiter) {
   return std::to_array<std::string_view>({"monotonised_central", "inutsuka", "none"});
 }
 constexpr auto enum_names(PairFaces) { return std::to_array<std::string_view>({"renormalised", "kernel"}); }

@@ -82,8 +82,8 @@ struct Numerics {
   Switch bonds = Switch::automatic;                ///< elastic matter holds on to the neighbours of the start
   double viscosity_alpha = 1;                      ///< linear coefficient of Monaghan's viscosity
   double viscosity_beta = 2;                       ///< quadratic coefficient
-  RiemannSolver riemann = RiemannSolver::approximate;         ///< GSPH: between two particles
-  SlopeLimiter limiter = SlopeLimiter::monotonised_central;   ///< GSPH: of the states brought to the middle of a pair
+  PairRiemann riemann = PairRiemann::approximate;         ///< GSPH: between two particles
+  PairLimiter limiter = PairLimiter::monotonised_central;   ///< GSPH: of the states brought to the middle of a pair
   PairFaces faces = PairFaces::renormalised;                  ///< GSPH: what the flux of a pair goes through
   double courant = 0.4;
   DistensionSolver distension_solver = DistensionSolver::safe_newton;

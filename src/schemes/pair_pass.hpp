@@ -17,8 +17,8 @@ namespace ejecta {
 
 /// Fluxes of Riemann problems in place of pressure and viscosity (GSPH), for gases without stress.
 struct GodunovSettings {
-  RiemannSolver riemann = RiemannSolver::approximate;
-  SlopeLimiter limiter = SlopeLimiter::monotonised_central;
+  PairRiemann riemann = PairRiemann::approximate;
+  PairLimiter limiter = PairLimiter::monotonised_central;
   PairFaces faces = PairFaces::renormalised;
   /// What sums over the lattice give of 1 and of the gradient of x (lattice_sums.hpp): densities and the faces `kernel`
   /// are divided by them.

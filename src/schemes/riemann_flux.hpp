@@ -130,9 +130,9 @@ struct RiemannFlux {
       WholeFlux<V, Dim> flux;
       set_face(p, theirs, flux.face);
       const V per_r = simd::reciprocal_sqrt(V(p.r2 + support_detail::guard<T>)), apart = along * per_r;
-      const States states = settings_.limiter == SlopeLimiter::none ? as_they_are(theirs, j, apart)
+      const States states = settings_.limiter == PairLimiter::none ? as_they_are(theirs, j, apart)
                                                                     : in_the_middle(p, theirs, j, per_r, apart);
-      const StarState<V> star = settings_.riemann == RiemannSolver::exact
+      const StarState<V> star = settings_.riemann == PairRiemann::exact
                                     ? exact_star(states.ours, states.theirs, states.apart)
                                     : approximate_star(states.ours, states.theirs, states.apart);
       flux.pressure = T(2) * (expansion_ * j[R::expansion]) * star.pressure;
@@ -183,7 +183,7 @@ struct RiemannFlux {
               p_i = slope(pressure_gradient_, p.dx), p_j = slope(theirs + Places::pressure_gradient, p.dx),
               u_i = squares.along(strain_) * per_r, u_j = squares.along(theirs + Places::strain) * per_r;
       const V more_density = s.theirs.density - s.ours.density, more_pressure = s.theirs.pressure - s.ours.pressure;
-      if (settings_.limiter == SlopeLimiter::inutsuka) {
+      if (settings_.limiter == PairLimiter::inutsuka) {
         // Inutsuka (2002, sect. 3.4): no slopes of the velocity where they differ in sign, and none at all in strong
         // compression, nor where they would leave no density or pressure.
         const V alike = u_i * u_j > T(0) ? V{} + T(1) : V{};

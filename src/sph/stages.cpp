@@ -54,7 +54,7 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
   const bool tensor = scene.numerics.tensors();
   const bool godunov = scene.numerics.godunov();
   // First order with uncorrected faces needs no slopes.
-  const bool slopes = godunov && (tensor || continuity || scene.numerics.limiter != SlopeLimiter::none ||
+  const bool slopes = godunov && (tensor || continuity || scene.numerics.limiter != PairLimiter::none ||
                                   scene.numerics.faces == PairFaces::renormalised);
   const bool gradient = solid || continuity || balsara || switched || tensor || corrects_gradients(scene, materials);
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double gamma_of_air = 1.4;
 
-PairPassSettings godunov(RiemannSolver riemann, SlopeLimiter limiter, PairFaces faces) {
+PairPassSettings godunov(PairRiemann riemann, PairLimiter limiter, PairFaces faces) {
   auto settings = settings_of(Kernel::wendland_c2, Precision::double_precision, false, false);
   settings.velocity_gradient = false;
   settings.godunov = {riemann, limiter, faces, 1.02, 0.97};
@@ -57,15 +57,15 @@ Vec<Dim> kernel_gradient(const Particles<Dim>& p, const KernelFunctions& kernel,
   return -0.5 * (slope(i) + slope(j)) / r * x;
 }
 
-double limited(double slope, double difference, SlopeLimiter limiter) {
-  if (limiter == SlopeLimiter::none) return 0;
+double limited(double slope, double difference, PairLimiter limiter) {
+  if (limiter == PairLimiter::none) return 0;
   const double other = 2 * slope - difference;  // what the slope makes of the change on the other side
   if (slope * difference <= 0 || other * difference <= 0) return 0;
   return std::copysign(std::min({std::abs(slope), 2 * std::abs(other), 2 * std::abs(difference)}), slope);
 }
 
 template <int Dim>
-void expect_formulas(SlopeLimiter limiter, PairFaces faces, RiemannSolver solver) {
+void expect_formulas(PairLimiter limiter, PairFaces faces, PairRiemann solver) {
   const auto settings = godunov(solver, limiter, faces);
   auto p = random_gas<Dim>(Dim == 2 ? 300 : 400, 91);
   sort_in_space(p, cluster_size(settings.precision));
@@ -116,17 +116,20 @@ void expect_formulas(SlopeLimiter limiter, PairFaces faces, RiemannSolver solver
           theirs{rho[j] - 0.5 * change(j, density_slope, rho[j] - rho[i]), u - 0.5 * u_j,
                  P[j] - 0.5 * change(j, pressure_slope, P[j] - P[i])};
       double star = 0, u_star = 0;
-      if (solver == RiemannSolver::exact) {
+      if (solver == PairRiemann::exact) {
         const ExactRiemann riemann(ours, theirs, gamma_of_air);
         ASSERT_FALSE(riemann.vacuum());
         star = riemann.star_pressure();
         u_star = riemann.star_velocity();
       } else {
-        const auto found = approximate_star<double>({ours.density, ours.pressure, gamma_of_air},
-                                                    {theirs.density, theirs.pressure, gamma_of_air},
-                                                    theirs.velocity - ours.velocity);
-        star = found.pressure;
-        u_star = ours.velocity - found.faster_left;
+        const auto gas = [](const GasState& of) {
+          const auto all = [](double a) { return simd::all<simd::Doubles>(a); };
+          return MeetingGas<simd::Doubles>{all(of.density), all(of.pressure), all(gamma_of_air)};
+        };
+        const auto found =
+            approximate_star(gas(ours), gas(theirs), simd::all<simd::Doubles>(theirs.velocity - ours.velocity));
+        star = found.pressure[0];
+        u_star = ours.velocity - found.faster_left[0];
       }
       const Vec<Dim> force = -2 * m[i] / rho[i] * m[j] / rho[j] * star * face, contact = 0.5 * v + (u_star - 0.5 * u) * e;
       acceleration += force / m[i];
@@ -142,18 +145,18 @@ void expect_formulas(SlopeLimiter limiter, PairFaces faces, RiemannSolver solver
 }
 
 TEST(RiemannFlux, IsWhatItsFormulasSay) {
-  using enum SlopeLimiter;
-  expect_formulas<2>(none, PairFaces::kernel, RiemannSolver::exact);
-  expect_formulas<2>(monotonised_central, PairFaces::renormalised, RiemannSolver::exact);
-  expect_formulas<2>(monotonised_central, PairFaces::kernel, RiemannSolver::approximate);
-  expect_formulas<3>(monotonised_central, PairFaces::renormalised, RiemannSolver::approximate);
+  using enum PairLimiter;
+  expect_formulas<2>(none, PairFaces::kernel, PairRiemann::exact);
+  expect_formulas<2>(monotonised_central, PairFaces::renormalised, PairRiemann::exact);
+  expect_formulas<2>(monotonised_central, PairFaces::kernel, PairRiemann::approximate);
+  expect_formulas<3>(monotonised_central, PairFaces::renormalised, PairRiemann::approximate);
 }
 
 /// Every way to choose.
 template <class Body>
 void for_settings(Body&& body) {
-  for (const auto riemann : {RiemannSolver::approximate, RiemannSolver::exact})
-    for (const auto limiter : {SlopeLimiter::monotonised_central, SlopeLimiter::inutsuka, SlopeLimiter::none})
+  for (const auto riemann : {PairRiemann::approximate, PairRiemann::exact})
+    for (const auto limiter : {PairLimiter::monotonised_central, PairLimiter::inutsuka, PairLimiter::none})
       for (const auto faces : {PairFaces::renormalised, PairFaces::kernel}) body(godunov(riemann, limiter, faces));
 }
 
