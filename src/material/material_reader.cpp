@@ -64,8 +64,9 @@ void check_use(const Scene& scene, const std::vector<Material>& materials, std::
       problems.push_back(fmt::format("{}: bodies.{}: {}", body.origin, body.name, message));
     };
     if (scene.numerics.godunov() && !found->gas())
-      report(fmt::format("numerics.scheme: expected sph or asph, got {}: {} is no gas, and Riemann problems are of gases",
-                         name_of(scene.numerics.scheme), body.material));
+      report(
+          fmt::format("numerics.scheme: expected sph or asph, got {}: {} is no gas, and Riemann problems are of gases",
+                      name_of(scene.numerics.scheme), body.material));
     else if (scene.numerics.density == DensityMethod::summation && !found->gas())
       report(fmt::format(
           "numerics.density: expected continuity, got summation: {} is no gas, and a summed density falls off "

@@ -14,8 +14,8 @@
 /// The loop adds p_ij to both stresses and -p_ij v_ji.g_ij/2 to the heat of either side, so that momentum and energy
 /// are exact whatever the flux, as long as p_ij is the same number seen from i and from j.
 ///
-/// A flux that is `whole` is all that passes, and the loop that it goes through is that of pair_fluxes.hpp. Of the above
-/// it has `whole`, Record, the constructor of Lanes, and
+/// A flux that is `whole` is all that passes, and the loop that it goes through is that of pair_fluxes.hpp. Of the
+/// above it has `whole`, Record, the constructor of Lanes, and
 ///     across(partner, along)                  what passes (WholeFlux); `along` is v.x
 /// The force on i is -p_ij a_ij; the loop takes the heat of either side from the work of that force.
 

@@ -51,8 +51,8 @@ class PairPass {
 
   /// Density by summation: rho_i = sum_j m_j W(r_ij, h_i), and the zeroth moment.
   /// reads position, smoothing_length, mass; writes density, zeroth_moment.
-  /// With Godunov fluxes neighbours count by number, rho_i = m_i sum_j W(r_ij, h_i)/(that of the lattice): a jump of the
-  /// density between particles of one volume stays one.
+  /// With Godunov fluxes neighbours count by number, rho_i = m_i sum_j W(r_ij, h_i)/(that of the lattice): a jump of
+  /// the density between particles of one volume stays one.
   virtual void density(Particles<Dim>& particles, const PairLists<Dim>& lists) = 0;
 
   /// Rates by pair forces. V = m/rho; g_ij is the kernel gradient grad_i W_ij, averaged over both particles' h;
@@ -90,8 +90,8 @@ class PairPass {
   /// with weights f_ij = 1 - max(n.D_i n, n.D_j n), n the direction of the pair (D = 0 where a material is not cut): an
   /// opening crack does not strain the matter beside it.
   ///
-  /// Reads what PairRecord reads; writes acceleration, specific_energy_rate, zeroth_moment, largest_mu, velocity_gradient,
-  /// uncut_gradient, stretch (of bonds: the largest |x_ij|/|X_ij|, at least 1).
+  /// Reads what PairRecord reads; writes acceleration, specific_energy_rate, zeroth_moment, largest_mu,
+  /// velocity_gradient, uncut_gradient, stretch (of bonds: the largest |x_ij|/|X_ij|, at least 1).
   virtual void rates(Particles<Dim>& particles, const PairLists<Dim>& lists) = 0;
 
   /// Only with Godunov fluxes (riemann_flux.hpp), before rates(): with V = m/rho, and of f = rho, P and v,

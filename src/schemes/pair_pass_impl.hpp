@@ -225,7 +225,8 @@ void PairPassOf<T, Dim, Kind, K, Flux>::cluster_density(const RateColumns<Dim>& 
   for (std::size_t i = c.begin; i < c.end; ++i) {
     const int k = static_cast<int>(i - c.begin);
     columns.density(0, i) = support.norm(k) * density.lane(k);
-    if constexpr (Flux::whole) columns.density(0, i) *= records_[i * R::size + R::mass] / settings_.godunov->lattice_density;
+    if constexpr (Flux::whole)
+      columns.density(0, i) *= records_[i * R::size + R::mass] / settings_.godunov->lattice_density;
     columns.zeroth_moment(0, i) = static_cast<double>(sum[k]);
   }
 }

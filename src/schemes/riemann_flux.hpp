@@ -1,8 +1,9 @@
 #pragma once
-/// Godunov SPH: two neighbours exchange what the Riemann problem between them gives, on the line between them, of states
-/// that limited linear slopes bring to its middle. With a face that is a gradient of kernels [Inutsuka 2002, J. Comput.
-/// Phys. 179, 238; Cha & Whitworth 2003, Mon. Not. R. Astron. Soc. 340, 73] or one whose gradients are exact for linear
-/// fields [Lanson & Vila 2008, SIAM J. Numer. Anal. 46, 1912; Hopkins 2015, Mon. Not. R. Astron. Soc. 450, 53]:
+/// Godunov SPH: two neighbours exchange what the Riemann problem between them gives, on the line between them, of
+/// states that limited linear slopes bring to its middle. With a face that is a gradient of kernels [Inutsuka 2002, J.
+/// Comput. Phys. 179, 238; Cha & Whitworth 2003, Mon. Not. R. Astron. Soc. 340, 73] or one whose gradients are exact
+/// for linear fields [Lanson & Vila 2008, SIAM J. Numer. Anal. 46, 1912; Hopkins 2015, Mon. Not. R. Astron. Soc. 450,
+/// 53]:
 ///   m_i dv_i/dt = -sum_j 2 V_i V_j p* a_ij,   m_i du_i/dt = -sum_j 2 V_i V_j p* a_ij.(v* - v_i),
 ///   a_ij = g_ij/(that of the lattice) or (B_i + B_j)/2 g_ij,
 /// v* the mean of both velocities, but along the pair that between the waves.
@@ -28,9 +29,9 @@ template <class V>
   return simd::max(simd::min(simd::min(a, b), c), V{}) + simd::min(simd::max(simd::max(a, b), c), V{});
 }
 
-/// How much a quantity changes from a particle to its neighbour, of which half is taken to the middle: by its own slope,
-/// limited by twice the difference of both and twice what the slope makes of the particle on the other side, s - (d - s)
-/// [van Leer 1977, J. Comput. Phys. 23, 276].
+/// How much a quantity changes from a particle to its neighbour, of which half is taken to the middle: by its own
+/// slope, limited by twice the difference of both and twice what the slope makes of the particle on the other side, s -
+/// (d - s) [van Leer 1977, J. Comput. Phys. 23, 276].
 template <class V>
 [[gnu::always_inline]] inline V monotonised_central(V slope, V difference) {
   using T = kernel_detail::Scalar<V>;
@@ -48,7 +49,7 @@ struct RiemannFlux {
   class Record {
    public:
     static constexpr int pressure = 0;
-    static constexpr int gamma = pressure + 1;  ///< rho c^2/P
+    static constexpr int gamma = pressure + 1;          ///< rho c^2/P
     static constexpr int density_gradient = gamma + 1;  ///< gradients by length_unit
     static constexpr int pressure_gradient = density_gradient + Dim;
     static constexpr int strain = pressure_gradient + Dim;  ///< e_xx e_yy 2 e_xy | ...
@@ -131,7 +132,7 @@ struct RiemannFlux {
       set_face(p, theirs, flux.face);
       const V per_r = simd::reciprocal_sqrt(V(p.r2 + support_detail::guard<T>)), apart = along * per_r;
       const States states = settings_.limiter == PairLimiter::none ? as_they_are(theirs, j, apart)
-                                                                    : in_the_middle(p, theirs, j, per_r, apart);
+                                                                   : in_the_middle(p, theirs, j, per_r, apart);
       const StarState<V> star = settings_.riemann == PairRiemann::exact
                                     ? exact_star(states.ours, states.theirs, states.apart)
                                     : approximate_star(states.ours, states.theirs, states.apart);
@@ -169,10 +170,11 @@ struct RiemannFlux {
     }
 
     States as_they_are(const T* theirs, const T* j, V apart) const {
-      return {{density_, pressure_, gamma_},
-              {simd::all<V>(j[R::density]), simd::all<V>(theirs[Places::pressure]), simd::all<V>(theirs[Places::gamma])},
-              apart,
-              V{}};
+      return {
+          {density_, pressure_, gamma_},
+          {simd::all<V>(j[R::density]), simd::all<V>(theirs[Places::pressure]), simd::all<V>(theirs[Places::gamma])},
+          apart,
+          V{}};
     }
 
     template <class Partner>

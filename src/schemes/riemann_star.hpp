@@ -41,18 +41,20 @@ template <class V>
   return {simd::max(p, V{}), (more - of_left) * share, (-more - of_right) * share};
 }
 
-/// Mass per time through a wave behind which the gas is slower by u: rho (a + (a^2 + c^2)^(1/2)), a = (gamma + 1)/4 u,
-/// exact of a shock (u > 0) [Toro 2009, eqs 4.21 and 3.57], right to first order in u of a rarefaction, and positive.
+/// (rho c)^2
 template <class V>
-[[gnu::always_inline]] inline V mass_through(const MeetingGas<V>& gas, V c2, V u) {
-  using T = kernel_detail::Scalar<V>;
-  const V a = T(0.25) * (gas.gamma + T(1)) * u;
-  return simd::rounded(V(gas.density * (a + simd::square_root(simd::fused(a, a, c2)))));
+[[gnu::always_inline]] inline V impedance2(const MeetingGas<V>& gas) {
+  return simd::rounded(V(gas.gamma * gas.density * gas.pressure));
 }
 
+/// Mass per time through a wave behind which the gas is slower by u: a + (a^2 + (rho c)^2)^(1/2), a = rho u (gamma +
+/// 1)/4, exact of a shock (u > 0) of an ideal gas [Toro 2009, sect. 3.1.3], right to first order in u of a rarefaction,
+/// and positive.
 template <class V>
-[[gnu::always_inline]] inline V sound2(const MeetingGas<V>& gas) {
-  return simd::rounded(V(gas.gamma * gas.pressure * simd::reciprocal(gas.density)));
+[[gnu::always_inline]] inline V mass_through(const MeetingGas<V>& gas, V impedance2, V u) {
+  using T = kernel_detail::Scalar<V>;
+  const V a = T(0.25) * (gas.gamma + T(1)) * (gas.density * u);
+  return simd::rounded(V(a + simd::square_root(simd::fused(a, a, impedance2))));
 }
 
 }  // namespace riemann_detail
@@ -62,11 +64,10 @@ template <class V>
 template <class V>
 [[gnu::always_inline]] inline StarState<V> approximate_star(const MeetingGas<V>& l, const MeetingGas<V>& r, V apart) {
   using namespace riemann_detail;
-  const V c2l = sound2(l), c2r = sound2(r);
-  const V zl = simd::rounded(V(l.density * simd::square_root(c2l))),
-          zr = simd::rounded(V(r.density * simd::square_root(c2r)));
+  const V zl2 = impedance2(l), zr2 = impedance2(r);
+  const V zl = simd::rounded(simd::square_root(zl2)), zr = simd::rounded(simd::square_root(zr2));
   const StarState<V> sound = between_waves(zl, zr, l, r, apart);
-  return between_waves(mass_through(l, c2l, sound.faster_left), mass_through(r, c2r, sound.faster_right), l, r, apart);
+  return between_waves(mass_through(l, zl2, sound.faster_left), mass_through(r, zr2, sound.faster_right), l, r, apart);
 }
 
 namespace riemann_detail {
@@ -89,8 +90,8 @@ struct Behind {
 
 }  // namespace riemann_detail
 
-/// To round-off, by Newton's method [Toro 2009, sect. 4.3]; every lane goes on until it is there itself, whatever the others
-/// do.
+/// To round-off, by Newton's method [Toro 2009, sect. 4.3]; every lane goes on until it is there itself, whatever the
+/// others do.
 template <class V>
 inline StarState<V> exact_star(const MeetingGas<V>& l, const MeetingGas<V>& r, V apart) {
   using namespace riemann_detail;

@@ -29,7 +29,8 @@ Particles<Dim> random_gas(std::size_t n, unsigned seed, std::vector<Field> more 
   for (std::size_t i = 0; i < n; ++i) {
     p.column(Field::pressure)[i] = uniform(1e8, 1e9);
     p.column(Field::density)[i] *= uniform(0.8, 1.2);
-    p.column(Field::sound_speed)[i] = std::sqrt(gamma_of_air * p.column(Field::pressure)[i] / p.column(Field::density)[i]);
+    p.column(Field::sound_speed)[i] =
+        std::sqrt(gamma_of_air * p.column(Field::pressure)[i] / p.column(Field::density)[i]);
     for (int a = 0; a < Dim; ++a) p.column(Field::velocity, a)[i] *= 10;
   }
   return p;
@@ -131,7 +132,8 @@ void expect_formulas(PairLimiter limiter, PairFaces faces, PairRiemann solver) {
         star = found.pressure[0];
         u_star = ours.velocity - found.faster_left[0];
       }
-      const Vec<Dim> force = -2 * m[i] / rho[i] * m[j] / rho[j] * star * face, contact = 0.5 * v + (u_star - 0.5 * u) * e;
+      const Vec<Dim> force = -2 * m[i] / rho[i] * m[j] / rho[j] * star * face,
+                     contact = 0.5 * v + (u_star - 0.5 * u) * e;
       acceleration += force / m[i];
       heating += force.dot(contact) / m[i];
       acceleration_scale += force.norm() / m[i];
@@ -203,8 +205,8 @@ TEST(RiemannFlux, MomentumAndEnergyAreExact) {
 
 TEST(RiemannFlux, TensorsDoTheSame) {
   for_settings([](PairPassSettings settings) {
-    auto p = random_gas<2>(600, 73, {Field::density_gradient, Field::pressure_gradient, Field::face_correction,
-                                     Field::smoothing_metric});
+    auto p = random_gas<2>(
+        600, 73, {Field::density_gradient, Field::pressure_gradient, Field::face_correction, Field::smoothing_metric});
     random_ellipsoids(p, 3, 74);
     settings.asph = true;
     run(p, settings);

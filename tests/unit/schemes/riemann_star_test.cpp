@@ -52,7 +52,8 @@ TEST(RiemannStar, TheApproximationIsAsGoodAsStated) {
   for (const Problem& problem : problems) {
     const ExactRiemann truth(problem.left, problem.right, gamma_of_air);
     const auto star = solve(approximate, problem.left, problem.right);
-    EXPECT_NEAR(star.pressure[0], truth.star_pressure(), problem.pressure_error * truth.star_pressure()) << problem.name;
+    EXPECT_NEAR(star.pressure[0], truth.star_pressure(), problem.pressure_error * truth.star_pressure())
+        << problem.name;
     EXPECT_GE(star.pressure[0], 0) << problem.name;
     const auto sound = [](const GasState& gas) { return std::sqrt(gamma_of_air * gas.pressure / gas.density); };
     EXPECT_NEAR(problem.left.velocity - star.faster_left[0], truth.star_velocity(),
