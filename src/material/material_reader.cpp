@@ -8,6 +8,7 @@
 
 #include "base/errors.hpp"
 #include "material/material_settings.hpp"
+#include "scene/names.hpp"
 #include "scene/scene_reader.hpp"
 #include "scene/units.hpp"
 
@@ -62,7 +63,11 @@ void check_use(const Scene& scene, const std::vector<Material>& materials, std::
     const auto report = [&](const std::string& message) {
       problems.push_back(fmt::format("{}: bodies.{}: {}", body.origin, body.name, message));
     };
-    if (scene.numerics.density == DensityMethod::summation && !found->gas())
+    if (scene.numerics.godunov() && !found->gas())
+      report(
+          fmt::format("numerics.scheme: expected sph or asph, got {}: {} is no gas, and Riemann problems are of gases",
+                      name_of(scene.numerics.scheme), body.material));
+    else if (scene.numerics.density == DensityMethod::summation && !found->gas())
       report(fmt::format(
           "numerics.density: expected continuity, got summation: {} is no gas, and a summed density falls off "
           "at free surfaces",

@@ -56,7 +56,7 @@ void add_particles(Summary& s, const Simulation& sim, const Sph<Dim>& sph, const
   s.neighbours_mean = mean_neighbours(sph);
   if (s.particle_steps_per_s) s.pair_interactions_per_s = *s.particle_steps_per_s * *s.neighbours_mean;
   s.bytes_per_particle = static_cast<double>(sph.bytes()) / n;
-  if (sim.scene.numerics.scheme == SchemeKind::asph) {
+  if (sim.scene.numerics.tensors()) {
     s.shape_votes = sph.shape_report.votes;
     s.shape_few_neighbours = sph.shape_report.few_neighbours;
     s.shape_limited_change = sph.shape_report.limited_change;

@@ -131,6 +131,21 @@ void check_boundary(const Scene& scene, const Report& report) {
   }
 }
 
+/// What Riemann problems between particles cannot do.
+void check_godunov(const Numerics& n, const Report& report) {
+  if (!n.godunov()) return;
+  const std::string scheme{name_of(n.scheme)};
+  if (n.precision == Precision::mixed)
+    report("numerics.precision", fmt::format("expected double with scheme {}, got mixed", scheme));
+  const auto refuse = [&](const char* key, Switch choice) {
+    if (choice == Switch::on) report(fmt::format("numerics.{}", key), fmt::format("scheme {} has none", scheme));
+  };
+  refuse("gradient_correction", n.gradient_correction);
+  refuse("balsara", n.balsara);
+  refuse("shock_switch", n.shock_switch);
+  refuse("bonds", n.bonds);
+}
+
 }  // namespace
 
 void check_scene(const Scene& scene, const Document& document, Problems& problems) {
@@ -168,6 +183,7 @@ void check_scene(const Scene& scene, const Document& document, Problems& problem
       problems.add(origin, "materials." + name, "no body is made of it");
     }
   check_boundary(scene, report);
+  check_godunov(scene.numerics, report);
   if (const std::string& target = scene.fragments.target; !target.empty() && !names.contains(target))
     report("fragments.target",
            fmt::format("expected the name of a body ({}), got \"{}\"", fmt::join(names, ", "), target));

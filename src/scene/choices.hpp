@@ -19,5 +19,8 @@ using Triple = std::array<double, 3>;  ///< x, y, z; z is ignored in plane strai
 enum class Kernel { cubic_spline, quintic_spline, wendland_c2, wendland_c4 };
 enum class Precision { double_precision, mixed };
 enum class DistensionSolver { safe_newton, bisection, newton };
+enum class PairRiemann { approximate, exact };
+enum class PairLimiter { monotonised_central, inutsuka, none };
+enum class PairFaces { renormalised, kernel };
 
 }  // namespace ejecta

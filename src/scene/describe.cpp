@@ -61,10 +61,12 @@ void describe(Describer& d, Gas& g) {
 }
 
 void describe(Describer& d, Numerics& n) {
-  d.choice("scheme", n.scheme, "particles smoothed over a length h (sph) or a tensor H (asph, ellipsoids); fvm: finite volumes on a grid");
+  d.choice("scheme", n.scheme,
+           "particles smoothed over a length h (sph) or a tensor H (asph, ellipsoids); the same with Riemann problems "
+           "between neighbours, for gases (gsph, agsph); fvm: finite volumes on a grid");
   d.choice("kernel", n.kernel, "smoothing kernel");
   d.choice("precision", n.precision, "of the pair passes; mixed: pair differences in float, sums and states in double");
-  d.choice("density", n.density, "continuity for solids; summation for gases only");
+  d.choice("density", n.density, "continuity for solids; summation for gases only; gsph: summation unless given");
   d.number("nodes_per_h", n.nodes_per_h, "1", between(1, 4), "particles per smoothing length");
   d.number("smoothing_growth", n.smoothing_growth, "1", at_least(1),
            "of solids: largest h relative to that of the lattice; 1: h constant. A gas may widen it 20 times");
@@ -82,6 +84,11 @@ void describe(Describer& d, Numerics& n) {
            "elastic matter keeps the neighbours of the start; auto: where it bears strains above a twentieth");
   d.number("viscosity_alpha", n.viscosity_alpha, "1", non_negative, "linear coefficient of Monaghan's viscosity");
   d.number("viscosity_beta", n.viscosity_beta, "1", non_negative, "quadratic coefficient of Monaghan's viscosity");
+  d.choice("riemann", n.riemann, "gsph: solution of the Riemann problem of a pair, in one go or to round-off");
+  d.choice("limiter", n.limiter,
+           "gsph: of the slopes that bring states to the middle of a pair; none: first order, as they are");
+  d.choice("faces", n.faces,
+           "gsph: what fluxes go through, gradients that are exact for linear fields or those of the kernel");
   d.number("courant", n.courant, "1", {.min = 0, .max = 1, .open_min = true}, "time step in signal crossings of h");
   d.choice("distension_solver", n.distension_solver, "root finder of the porosity model; the last two for comparison");
   d.number("distension_tolerance", n.distension_tolerance, "1", {.min = 0, .max = 1e-7, .open_min = true},

@@ -10,7 +10,14 @@ namespace ejecta {
 constexpr auto enum_names(Kernel) {
   return std::to_array<std::string_view>({"cubic_spline", "quintic_spline", "wendland_c2", "wendland_c4"});
 }
-constexpr auto enum_names(SchemeKind) { return std::to_array<std::string_view>({"sph", "asph", "fvm"}); }
+constexpr auto enum_names(SchemeKind) {
+  return std::to_array<std::string_view>({"sph", "asph", "fvm", "gsph", "agsph"});
+}
+constexpr auto enum_names(PairRiemann) { return std::to_array<std::string_view>({"approximate", "exact"}); }
+constexpr auto enum_names(PairLimiter) {
+  return std::to_array<std::string_view>({"monotonised_central", "inutsuka", "none"});
+}
+constexpr auto enum_names(PairFaces) { return std::to_array<std::string_view>({"renormalised", "kernel"}); }
 constexpr auto enum_names(Precision) { return std::to_array<std::string_view>({"double", "mixed"}); }
 constexpr auto enum_names(DensityMethod) { return std::to_array<std::string_view>({"continuity", "summation"}); }
 constexpr auto enum_names(BoundaryKind) {

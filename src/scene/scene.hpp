@@ -17,7 +17,7 @@
 
 namespace ejecta {
 
-enum class SchemeKind { sph, asph, fvm };
+enum class SchemeKind { sph, asph, fvm, gsph, agsph };
 enum class DensityMethod { continuity, summation };
 enum class Lattice { cubic, hexagonal, glass };
 enum class OnError { continue_run, abort };
@@ -60,6 +60,14 @@ struct Body {
 std::vector<double> widths(const Body& body, int dimension);
 
 struct Numerics {
+  /// Smoothing tensors; fluxes of Riemann problems.
+  bool tensors() const { return scheme == SchemeKind::asph || scheme == SchemeKind::agsph; }
+  bool godunov() const { return scheme == SchemeKind::gsph || scheme == SchemeKind::agsph; }
+  /// What damps a difference of velocities, as coefficients of Monaghan's viscosity. A Riemann problem between like
+  /// gases has p* - p = rho u (c + (gamma + 1)/4 u), u half of what they close by [Toro 2009, sect. 3.1.3].
+  double damping_alpha() const { return godunov() ? 1 : viscosity_alpha; }
+  double damping_beta() const { return godunov() ? 1 : viscosity_beta; }
+
   SchemeKind scheme = SchemeKind::sph;
   Kernel kernel = Kernel::wendland_c2;
   Precision precision = Precision::double_precision;
@@ -74,6 +82,9 @@ struct Numerics {
   Switch bonds = Switch::automatic;                ///< elastic matter holds on to the neighbours of the start
   double viscosity_alpha = 1;                      ///< linear coefficient of Monaghan's viscosity
   double viscosity_beta = 2;                       ///< quadratic coefficient
+  PairRiemann riemann = PairRiemann::approximate;  ///< GSPH: between two particles
+  PairLimiter limiter = PairLimiter::monotonised_central;  ///< GSPH: of the states brought to the middle of a pair
+  PairFaces faces = PairFaces::renormalised;               ///< GSPH: what the flux of a pair goes through
   double courant = 0.4;
   DistensionSolver distension_solver = DistensionSolver::safe_newton;
   double distension_tolerance = 1e-12;

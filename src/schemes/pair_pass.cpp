@@ -9,11 +9,14 @@ template <int Dim, class K>
 std::unique_ptr<PairPass<Dim>> make_isotropic_pass_of(const PairPassSettings& settings);
 template <int Dim, class K>
 std::unique_ptr<PairPass<Dim>> make_anisotropic_pass_of(const PairPassSettings& settings);
+template <int Dim, class K>
+std::unique_ptr<PairPass<Dim>> make_riemann_pass_of(const PairPassSettings& settings);
 
 template <int Dim>
 std::unique_ptr<PairPass<Dim>> make_pair_pass(const PairPassSettings& settings) {
   return with_kernel(settings.kernel, [&](auto kernel) {
     using K = decltype(kernel);
+    if (settings.godunov) return make_riemann_pass_of<Dim, K>(settings);
     return settings.asph || settings.cracked ? make_anisotropic_pass_of<Dim, K>(settings)
                                              : make_isotropic_pass_of<Dim, K>(settings);
   });

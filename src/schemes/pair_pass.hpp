@@ -3,6 +3,7 @@
 /// only its own particles, and the force of j on i is minus that of i on j bit for bit, so momentum is exact and
 /// nothing depends on the number of threads.
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,6 +14,16 @@
 #include "schemes/pair_records.hpp"
 
 namespace ejecta {
+
+/// Fluxes of Riemann problems in place of pressure and viscosity (GSPH), for gases without stress.
+struct GodunovSettings {
+  PairRiemann riemann = PairRiemann::approximate;
+  PairLimiter limiter = PairLimiter::monotonised_central;
+  PairFaces faces = PairFaces::renormalised;
+  /// What sums over the lattice give of 1 and of the gradient of x (lattice_sums.hpp): densities and the faces `kernel`
+  /// are divided by them.
+  double lattice_density = 1, lattice_gradient = 1;
+};
 
 /// What a scene asks of the pair passes; fixed for a run.
 struct PairPassSettings {
@@ -29,6 +40,7 @@ struct PairPassSettings {
   bool contacts = false;   ///< there are several pieces, or a solid and a wall
   double friction = 0;     ///< coefficient of friction between pieces
   double length_unit = 1;  ///< a power of two near the particle spacing [m]
+  std::optional<GodunovSettings> godunov;
   PairRules rules;
 };
 
@@ -39,6 +51,8 @@ class PairPass {
 
   /// Density by summation: rho_i = sum_j m_j W(r_ij, h_i), and the zeroth moment.
   /// reads position, smoothing_length, mass; writes density, zeroth_moment.
+  /// With Godunov fluxes neighbours count by number, rho_i = m_i sum_j W(r_ij, h_i)/(that of the lattice): a jump of
+  /// the density between particles of one volume stays one.
   virtual void density(Particles<Dim>& particles, const PairLists<Dim>& lists) = 0;
 
   /// Rates by pair forces. V = m/rho; g_ij is the kernel gradient grad_i W_ij, averaged over both particles' h;
@@ -76,9 +90,15 @@ class PairPass {
   /// with weights f_ij = 1 - max(n.D_i n, n.D_j n), n the direction of the pair (D = 0 where a material is not cut): an
   /// opening crack does not strain the matter beside it.
   ///
-  /// Reads what PairRecord reads; writes acceleration, specific_energy_rate, zeroth_moment, largest_mu, velocity_gradient,
-  /// uncut_gradient, stretch (of bonds: the largest |x_ij|/|X_ij|, at least 1).
+  /// Reads what PairRecord reads; writes acceleration, specific_energy_rate, zeroth_moment, largest_mu,
+  /// velocity_gradient, uncut_gradient, stretch (of bonds: the largest |x_ij|/|X_ij|, at least 1).
   virtual void rates(Particles<Dim>& particles, const PairLists<Dim>& lists) = 0;
+
+  /// Only with Godunov fluxes (riemann_flux.hpp), before rates(): with V = m/rho, and of f = rho, P and v,
+  ///   M_i = sum_j V_j x_ji g_ij^T,   B_i = M_i^-1^T,   grad f_i = sum_j V_j (f_j - f_i) B_i g_ij,
+  /// exact for linear fields (gradient_correction.hpp: few neighbours).
+  /// reads what rates() reads; writes density_gradient, pressure_gradient, velocity_gradient, face_correction (B).
+  virtual void slopes(Particles<Dim>& particles, const PairLists<Dim>& lists) = 0;
 
   virtual std::size_t bytes() const = 0;
 };

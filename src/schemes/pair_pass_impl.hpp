@@ -33,6 +33,7 @@ class PairPassOf final : public PairPass<Dim> {
 
   void density(Particles<Dim>& particles, const PairLists<Dim>& lists) override;
   void rates(Particles<Dim>& particles, const PairLists<Dim>& lists) override;
+  void slopes(Particles<Dim>& particles, const PairLists<Dim>& lists) override;
   std::size_t bytes() const override {
     return (records_.capacity() + contacts_.capacity()) * sizeof(T) + in_contact_.capacity() +
            around_.sums.capacity() * sizeof(around_.sums[0]);
@@ -43,6 +44,7 @@ class PairPassOf final : public PairPass<Dim> {
   using V = simd::Vector<T, simd::lanes<T>>;
   using Support = std::conditional_t<Kind.asph, EllipsoidalSupport<V, Dim, K, R>, IsotropicSupport<V, Dim, K, R>>;
   using FluxLanes = typename Flux::template Lanes<V, Dim, R, Kind.record().strained>;
+  static_assert(!Flux::whole || (!Kind.stress && !Kind.gradient && !R::split), "a whole flux is of gases, in double");
   using Members = pair_detail::Members<T, V, R, Dim, Kind.record()>;
   using Partner = pair_detail::Partner<T, V, Dim, Kind.record(), typename Support::Pair>;
   using TensorSum = pair_detail::TensorSum<V, Dim>;
@@ -80,6 +82,8 @@ class PairPassOf final : public PairPass<Dim> {
     else
       return std::false_type{};
   }
+  void rates_by_stress(Particles<Dim>& particles, const PairLists<Dim>& lists);
+  void rates_by_flux(Particles<Dim>& particles, const PairLists<Dim>& lists);
   void find_contacts(std::size_t cluster, const PairLists<Dim>& lists);
   template <bool Contacts>
   void sum_moments(const RateColumns<Dim>& columns, const Cluster& c, Candidates candidates);
@@ -90,6 +94,8 @@ class PairPassOf final : public PairPass<Dim> {
                                            const V (&v)[Dim], const V (&stress)[R::stresses],
                                            const ContactLanes& contact) const;
   void cluster_density(const RateColumns<Dim>& columns, const Cluster& c, Candidates candidates) const;
+  void cluster_slopes(const RateColumns<Dim>& columns, const Cluster& c, Candidates candidates) const;
+  void cluster_fluxes(const RateColumns<Dim>& columns, const Cluster& c, Candidates candidates) const;
   template <class Body>
   void for_clusters(const PairLists<Dim>& lists, Body&& body) const {
     parallel_blocks(lists.clusters().size(), 16, [&](std::size_t begin, std::size_t end) {
@@ -140,6 +146,14 @@ void PairPassOf<T, Dim, Kind, K, Flux>::for_partners(const Members& members, con
 
 template <class T, int Dim, PassKind Kind, class K, class Flux>
 void PairPassOf<T, Dim, Kind, K, Flux>::rates(Particles<Dim>& particles, const PairLists<Dim>& lists) {
+  if constexpr (Flux::whole)
+    rates_by_flux(particles, lists);
+  else
+    rates_by_stress(particles, lists);
+}
+
+template <class T, int Dim, PassKind Kind, class K, class Flux>
+void PairPassOf<T, Dim, Kind, K, Flux>::rates_by_stress(Particles<Dim>& particles, const PairLists<Dim>& lists) {
   const PairRules& rules = settings_.rules;
   const auto& clusters = lists.clusters();
   const RateColumns<Dim> columns(particles);
@@ -169,6 +183,23 @@ void PairPassOf<T, Dim, Kind, K, Flux>::rates(Particles<Dim>& particles, const P
 }
 
 template <class T, int Dim, PassKind Kind, class K, class Flux>
+void PairPassOf<T, Dim, Kind, K, Flux>::rates_by_flux(Particles<Dim>& particles, const PairLists<Dim>& lists) {
+  R::pack(particles, lists.ghosts(), settings_.rules, scales(), records_);
+  const RateColumns<Dim> columns(particles);
+  for_clusters(lists, [&](std::size_t k) { cluster_fluxes(columns, lists.clusters()[k], lists.candidates(k)); });
+}
+
+template <class T, int Dim, PassKind Kind, class K, class Flux>
+void PairPassOf<T, Dim, Kind, K, Flux>::slopes([[maybe_unused]] Particles<Dim>& particles,
+                                               [[maybe_unused]] const PairLists<Dim>& lists) {
+  if constexpr (Flux::whole) {
+    R::pack(particles, lists.ghosts(), settings_.rules, scales(), records_);
+    const RateColumns<Dim> columns(particles);
+    for_clusters(lists, [&](std::size_t k) { cluster_slopes(columns, lists.clusters()[k], lists.candidates(k)); });
+  }
+}
+
+template <class T, int Dim, PassKind Kind, class K, class Flux>
 void PairPassOf<T, Dim, Kind, K, Flux>::density(Particles<Dim>& particles, const PairLists<Dim>& lists) {
   R::pack(particles, lists.ghosts(), settings_.rules, scales(), records_);
   const RateColumns<Dim> columns(particles);
@@ -188,12 +219,14 @@ void PairPassOf<T, Dim, Kind, K, Flux>::cluster_density(const RateColumns<Dim>& 
     V between[Dim], distance2, w, moment;
     members.template meet<false>(p, between, distance2);
     support.value(between, distance2, w, moment);
-    density.add(p.record[R::mass], w);
+    density.add(Flux::whole ? T(1) : p.record[R::mass], w);
     sum += moment;
   }
   for (std::size_t i = c.begin; i < c.end; ++i) {
     const int k = static_cast<int>(i - c.begin);
     columns.density(0, i) = support.norm(k) * density.lane(k);
+    if constexpr (Flux::whole)
+      columns.density(0, i) *= records_[i * R::size + R::mass] / settings_.godunov->lattice_density;
     columns.zeroth_moment(0, i) = static_cast<double>(sum[k]);
   }
 }

@@ -16,12 +16,15 @@ struct RateColumns {
         largest_mu(p, Field::largest_mu),
         velocity_gradient(p, Field::velocity_gradient),
         uncut_gradient(p, Field::uncut_gradient),
+        density_gradient(p, Field::density_gradient),
+        pressure_gradient(p, Field::pressure_gradient),
+        face_correction(p, Field::face_correction),
         stretch(p, Field::stretch),
         density(p, Field::density) {}
 
   Columns<Dim, const double> mass, velocity;
   Columns<Dim, double> acceleration, specific_energy_rate, zeroth_moment, largest_mu, velocity_gradient, uncut_gradient,
-      stretch, density;
+      density_gradient, pressure_gradient, face_correction, stretch, density;
 };
 
 }  // namespace ejecta

@@ -70,7 +70,7 @@ IndexedMin courant(const Sph<Dim>& sph) {
   const Numerics& n = sph.scene.numerics;
   const auto sound = sph.particles.column(Field::sound_speed), approach = sph.particles.column(Field::largest_mu);
   return Crossings<Dim>(sph).least([&](std::size_t i, double length) {
-    return length / (sound[i] + 0.6 * (n.viscosity_alpha * sound[i] + 2 * n.viscosity_beta * approach[i]));
+    return length / (sound[i] + 0.6 * (n.damping_alpha() * sound[i] + 2 * n.damping_beta() * approach[i]));
   });
 }
 

@@ -50,7 +50,7 @@ Estimate estimate_particles(const Scene& scene, const std::vector<Material>& mat
     const auto material =
         std::find_if(materials.begin(), materials.end(), [&](const Material& m) { return m.name == body.material; });
     const double sound = resting_sound_speed(*material, body);
-    least_step = std::min(least_step, n.courant * n.nodes_per_h * spacing / (sound * (1 + 0.6 * n.viscosity_alpha)));
+    least_step = std::min(least_step, n.courant * n.nodes_per_h * spacing / (sound * (1 + 0.6 * n.damping_alpha())));
   }
   e.bytes_each = bytes_of_lists + (scene.dimension == 2 ? bytes_of_columns<2>(scene, materials)
                                                                 : bytes_of_columns<3>(scene, materials));

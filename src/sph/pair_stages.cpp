@@ -84,6 +84,11 @@ void summation_density(Sph<Dim>& sph) {
 }
 
 template <int Dim>
+void slopes(Sph<Dim>& sph) {
+  sph.pass->slopes(sph.particles, sph.lists);
+}
+
+template <int Dim>
 void pair_rates(Sph<Dim>& sph) {
   sph.pass->rates(sph.particles, sph.lists);
 }
@@ -144,6 +149,8 @@ void viscosity_switches(Sph<Dim>& sph) {
 
 template void summation_density<2>(Sph<2>&);
 template void summation_density<3>(Sph<3>&);
+template void slopes<2>(Sph<2>&);
+template void slopes<3>(Sph<3>&);
 template void pair_rates<2>(Sph<2>&);
 template void pair_rates<3>(Sph<3>&);
 template void strain_rates<2>(Sph<2>&);

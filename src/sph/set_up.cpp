@@ -10,6 +10,7 @@
 #include "particles/smoothing_metric.hpp"
 #include "scene/units.hpp"
 #include "schemes/kernels.hpp"
+#include "schemes/lattice_sums.hpp"
 #include "schemes/pair_records.hpp"
 #include "sph/criteria.hpp"
 #include "sph/diagnostics.hpp"
@@ -178,6 +179,10 @@ std::unique_ptr<Sph<Dim>> set_up(const Scene& scene, const std::vector<Material>
   settings.viscosity_alpha = numerics.viscosity_alpha;
   settings.viscosity_beta = numerics.viscosity_beta;
   settings.length_unit = power_of_two_below(scene.spacing);
+  if (numerics.godunov()) {
+    const LatticeSums lattice = lattice_sums(numerics.kernel, Dim, numerics.nodes_per_h);
+    settings.godunov = {numerics.riemann, numerics.limiter, numerics.faces, lattice.density, lattice.gradient};
+  }
   sph->pass = make_pair_pass<Dim>(settings);
   sph->support = std::make_unique<SupportSize>(numerics.kernel, Dim, numerics.nodes_per_h);
 

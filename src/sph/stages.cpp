@@ -25,7 +25,7 @@ struct Fields {
 }  // namespace
 
 bool corrects_gradients(const Scene& scene, const std::vector<Material>& materials) {
-  return holds(scene.numerics.gradient_correction, materials);
+  return !scene.numerics.godunov() && holds(scene.numerics.gradient_correction, materials);
 }
 
 template <int Dim>
@@ -51,7 +51,11 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
   const bool switched = holds(scene.numerics.shock_switch, materials);
   const bool bonded = scene.numerics.bonds == Switch::on || (scene.numerics.bonds == Switch::automatic &&
                                                              any([](const Material& m) { return m.stretches(); }));
-  const bool tensor = scene.numerics.scheme == SchemeKind::asph;
+  const bool tensor = scene.numerics.tensors();
+  const bool godunov = scene.numerics.godunov();
+  // First order with uncorrected faces needs no slopes.
+  const bool slopes = godunov && (tensor || continuity || scene.numerics.limiter != PairLimiter::none ||
+                                  scene.numerics.faces == PairFaces::renormalised);
   const bool gradient = solid || continuity || balsara || switched || tensor || corrects_gradients(scene, materials);
 
   std::vector<Stage<Dim>> stages;
@@ -105,6 +109,11 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
             .with(scalar_cracks, {crack_length, local_strain})
             .with(tensor_cracks, {damage_tensor, strain_history}),
         ejecta::damage<Dim>);
+  if (slopes)
+    add("slopes",
+        Fields{position, velocity, smoothing_length, mass, density, pressure, sound_speed}.with(tensor,
+                                                                                                {smoothing_metric}),
+        {density_gradient, pressure_gradient, velocity_gradient, face_correction}, ejecta::slopes<Dim>);
   add("pair rates",
       Fields{position, velocity, smoothing_length, mass, density, pressure, sound_speed}
           .with(tensor, {smoothing_metric})
@@ -112,11 +121,12 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
           .with(breaks, {intact_share})
           .with(coupled, {damage_tensor})
           .with(gradient, {velocity_gradient})
+          .with(slopes, {density_gradient, pressure_gradient, velocity_gradient, face_correction})
           .with(balsara, {viscosity_factor})
           .with(switched, {Field::shock_switch})
           .with(bonded, {start_position, bond}),
       Fields{acceleration, specific_energy_rate, zeroth_moment, largest_mu}
-          .with(gradient, {velocity_gradient})
+          .with(gradient && !godunov, {velocity_gradient})
           .with(coupled, {uncut_gradient})
           .with(bonded, {stretch}),
       pair_rates<Dim>);

@@ -50,6 +50,9 @@ void driven_bodies(Sph<Dim>& sph);
 /// Density by summation, with smoothing lengths that belong to it.
 template <int Dim>
 void summation_density(Sph<Dim>& sph);
+/// Gradients of density, pressure and velocity, from which Godunov fluxes are reconstructed, and what corrects them.
+template <int Dim>
+void slopes(Sph<Dim>& sph);
 /// Accelerations, rates of specific energy and velocity gradients.
 template <int Dim>
 void pair_rates(Sph<Dim>& sph);

@@ -8,11 +8,13 @@ from pathlib import Path
 FOLDER = Path(__file__).resolve().parent
 
 # Every stage there is, in the order of the algorithm.
-ALGORITHM = ["neighbours", "density", "equation of state", "strength", "bonds", "damage", "pair rates",
+ALGORITHM = ["neighbours", "density", "equation of state", "strength", "bonds", "damage", "slopes",
+             "pair rates",
              "strain rates", "viscosity switches", "smoothing lengths"]
 
 # Components in three dimensions of what is no plain number.
-COMPONENTS = {"position": 3, "velocity": 3, "acceleration": 3, "velocity_gradient": 9, "deviatoric_stress": 5,
+COMPONENTS = {"position": 3, "velocity": 3, "acceleration": 3, "velocity_gradient": 9, "density_gradient": 3,
+              "pressure_gradient": 3, "face_correction": 9, "deviatoric_stress": 5,
               "stress_rate": 5, "start_position": 3}
 # Rates are kept three times: the integrator needs those of the step before, and but for motion what it expected of them.
 COPIES = {"acceleration": 2, "specific_energy_rate": 3, "compression_rate": 3, "stress_rate": 3}
@@ -113,6 +115,10 @@ CASES = [
          adds_columns=("viscosity_factor", "velocity_gradient"), other_bytes=STRAINED),
     Case("gas, shock switch", gas, {"numerics.shock_switch": "true"}, adds_stages=("viscosity switches",),
          adds_columns=("shock_switch", "velocity_gradient"), other_bytes=STRAINED),
+    # A Riemann problem needs 2 numbers of a particle and 21 of its slopes; the viscosity's one falls away.
+    Case("gas, Riemann problems", gas, {"numerics.scheme": "gsph"}, adds_stages=("slopes",),
+         adds_columns=("density_gradient", "pressure_gradient", "velocity_gradient", "face_correction"),
+         other_bytes=22 * RECORDED * WITH_IMAGES),
     gas_continuity,
     Case("gas, continuity, constant h", gas_continuity, {"numerics.smoothing_growth": 1},
          drops_stages=("smoothing lengths",)),

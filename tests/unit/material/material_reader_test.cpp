@@ -265,6 +265,9 @@ TEST(ReadMaterials, RefusesWhatBodiesCannotHave) {
             One{"s.toml:9: bodies.target: numerics.density: expected continuity, got summation: pumice is no gas, and "
                 "a summed "
                 "density falls off at free surfaces"});
+  EXPECT_EQ(problems("[numerics]\nscheme = \"gsph\"\n", ""),
+            One{"s.toml:9: bodies.target: numerics.scheme: expected sph or asph, got gsph: pumice is no gas, and Riemann "
+                "problems are of gases"});
   EXPECT_EQ(problems("", "pressure = \"1 Pa\"\n"),
             One{"s.toml:7: bodies.target: pressure: only a gas can be given one, and pumice is none"});
   EXPECT_EQ(problems("", "density = \"800 kg/m^3\"\n"),

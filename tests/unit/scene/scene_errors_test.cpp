@@ -82,6 +82,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{"misspelt_word", "", "[numerics]\nkernel = \"wendland_c3\"\n",
                  "s.toml:18: numerics.kernel: expected one of " + kernels +
                      ", got \"wendland_c3\", did you mean wendland_c2?"},
+        BadScene{"riemann_in_single", "", "[numerics]\nscheme = \"gsph\"\nprecision = \"mixed\"\n",
+                 "s.toml:19: numerics.precision: expected double with scheme gsph, got mixed"},
+        BadScene{"riemann_with_viscosity", "", "[numerics]\nscheme = \"agsph\"\nshock_switch = true\n",
+                 "s.toml:19: numerics.shock_switch: scheme agsph has none"},
         BadScene{
             "empty_range", "", "[insitu.ranges]\ndamage = [1, 1]\n",
             "s.toml:18: insitu.ranges.damage: expected a smallest and a larger value such as [0, 1] or [\"-1 MPa\", "

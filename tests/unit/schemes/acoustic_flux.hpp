@@ -12,7 +12,7 @@
 namespace ejecta {
 
 struct AcousticFlux {
-  static constexpr bool uneven = true;
+  static constexpr bool whole = false, uneven = true;
 
   template <int Dim, bool Strained>
   class Record {

@@ -30,6 +30,23 @@ TEST(Stages, AGasHasNothingOfASolid) {
                                 pressure, sound_speed, smoothing_length, zeroth_moment, largest_mu}));
 }
 
+TEST(Stages, RiemannProblemsNeedSlopesButForTheFirstOrder) {
+  const std::vector<std::string> plain{"neighbours", "density", "equation of state", "pair rates"},
+      with_slopes{"neighbours", "density", "equation of state", "slopes", "pair rates"};
+  const auto list_of = [](std::vector<std::string> overrides) {
+    overrides.push_back("numerics.scheme=gsph");
+    return names(start<2>(gas_tube, overrides)->stages);
+  };
+  EXPECT_EQ(list_of({}), with_slopes);
+  EXPECT_EQ(list_of({"numerics.limiter=none"}), with_slopes);
+  EXPECT_EQ(list_of({"numerics.faces=kernel"}), with_slopes);
+  EXPECT_EQ(list_of({"numerics.limiter=none", "numerics.faces=kernel"}), plain);
+  const auto sim = start<2>(gas_tube, {"numerics.scheme=gsph"});
+  for (const Field f : {density_gradient, pressure_gradient, velocity_gradient, face_correction})
+    EXPECT_TRUE(sim->particles.has(f)) << info(f).name;
+  EXPECT_FALSE(start<2>(gas_tube)->particles.has(density_gradient));
+}
+
 TEST(Stages, PorousRockHasAllItsOwn) {
   const auto sim = start<3>(porous_impact);
   EXPECT_EQ(names(sim->stages),

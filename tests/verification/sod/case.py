@@ -83,4 +83,20 @@ class SodGamma53(Sod):
     )
 
 
-CASES = [Sod(), SodGamma53()]
+class SodRiemann(Sod):
+    """Resolution: particles in the 0.5 m of dense gas. Limits: measured and 15 %."""
+    name = "sod_gsph"
+    title = "Sod's shock tube with Riemann problems between particles"
+    quick, full = (100, 200), (50, 100, 200, 400)
+    bounds = (
+        Bound("density", "L1", {100: 0.0078, 400: 0.002}, 0.85),
+        Bound("velocity", "L1", {100: 0.0143, 400: 0.0036}, 0.85),
+        Bound("pressure", "L1", {100: 0.0069, 400: 0.0017}, 0.85),
+        *Sod.places,
+    )
+
+    def settings(self, resolution):
+        return {**super().settings(resolution), "numerics.scheme": "gsph"}
+
+
+CASES = [Sod(), SodGamma53(), SodRiemann()]

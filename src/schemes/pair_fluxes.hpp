@@ -1,0 +1,93 @@
+#pragma once
+/// The loops over the pairs of a flux that is whole (flux.hpp): slopes to reconstruct from, and what passes.
+#include "schemes/flux.hpp"
+#include "schemes/pair_pass_impl.hpp"
+
+namespace ejecta {
+
+template <class T, int Dim, PassKind Kind, class K, class Flux>
+void PairPassOf<T, Dim, Kind, K, Flux>::cluster_slopes(const RateColumns<Dim>& columns, const Cluster& c,
+                                                       Candidates candidates) const {
+  using Places = typename R::FluxRecord;
+  const Members members(c, records_.data());
+  const auto load = members.loader();
+  const Support support{load};
+  V v[Dim];
+  for (int a = 0; a < Dim; ++a) v[a] = load(R::v + a);
+  const V density = load(R::density), pressure = load(R::flux + Places::pressure);
+  TensorSum moment, strain;
+  V of_density[Dim] = {}, of_pressure[Dim] = {};
+  pair_detail::SquareSum<V, Dim, Kind.asph> squares;
+  for_partners<false>(
+      members, support, candidates, R::size, [](const auto&) {},
+      [&](const Partner& p) __attribute__((always_inline)) {
+        const T* j = p.record;
+        V dv[Dim], weighted[Dim];
+        p.kernel_gradient(weighted);
+        const T volume = j[R::volume] * j[R::expansion];
+        const V more_density = j[R::density] - density, more_pressure = j[R::flux + Places::pressure] - pressure;
+        for (int a = 0; a < Dim; ++a) {
+          dv[a] = j[R::v + a] - v[a];
+          weighted[a] *= volume;
+          of_density[a] += more_density * weighted[a];
+          of_pressure[a] += more_pressure * weighted[a];
+        }
+        moment.add(p.dx, weighted);
+        strain.add(dv, weighted);
+        squares.add(weighted);
+      });
+  const double per_unit = 1 / settings_.length_unit;
+  for (std::size_t i = c.begin; i < c.end; ++i) {
+    const int k = static_cast<int>(i - c.begin);
+    const double stiffness = std::sqrt(squares.of_lane(k, Support::scale(records_.data() + i * R::size)));
+    const Mat<Dim> B = gradient_correction<Dim>(moment.of_lane(k), least_stretch(stiffness)).Q;
+    const auto store = [&](const Columns<Dim, double>& gradient, const V(&sum)[Dim]) {
+      Vec<Dim> raw;
+      for (int a = 0; a < Dim; ++a) raw[a] = sum[a][k];
+      const Vec<Dim> corrected = per_unit * (B * raw);
+      for (int a = 0; a < Dim; ++a) gradient(static_cast<std::size_t>(a), i) = corrected[a];
+    };
+    store(columns.density_gradient, of_density);
+    store(columns.pressure_gradient, of_pressure);
+    columns.velocity_gradient.set(i, Mat<Dim>(per_unit * (strain.of_lane(k) * B.transpose())));
+    columns.face_correction.set(i, B);
+  }
+}
+
+template <class T, int Dim, PassKind Kind, class K, class Flux>
+void PairPassOf<T, Dim, Kind, K, Flux>::cluster_fluxes(const RateColumns<Dim>& columns, const Cluster& c,
+                                                       Candidates candidates) const {
+  const Members members(c, records_.data());
+  const auto load = members.loader();
+  const Support support{load};
+  V v[Dim];
+  for (int a = 0; a < Dim; ++a) v[a] = load(R::v + a);
+  const FluxLanes flux(load, settings_);
+  simd::WideSum<T> acceleration[Dim], heat;
+  V moment{}, fastest{};
+  for_partners<false>(
+      members, support, candidates, R::size, [&](const auto& pair) { moment += pair.moment; },
+      [&](const Partner& p) __attribute__((always_inline)) {
+        const T* j = p.record;
+        V dv[Dim];
+        for (int a = 0; a < Dim; ++a) dv[a] = j[R::v + a] - v[a];
+        const WholeFlux<V, Dim> passes = flux.across(p, pair_detail::dot(dv, p.dx));
+        for (int a = 0; a < Dim; ++a) acceleration[a].add(-j[R::volume], V(passes.pressure * passes.face[a]));
+        // F.(v* - v_i): what i loses and j gains, in all, is the work of F.
+        heat.add(-j[R::volume], V(passes.pressure * (T(0.5) * pair_detail::dot(dv, passes.face) + passes.drift)));
+        fastest = simd::min(fastest, V(p.pair.moment > 0 ? passes.approach : V{}));
+      });
+  const double per_unit = 1 / settings_.length_unit, unit_volume = std::pow(settings_.length_unit, Dim);
+  for (std::size_t i = c.begin; i < c.end; ++i) {
+    const int k = static_cast<int>(i - c.begin);
+    // V0/m of the record: both sides of a pair must use the same two volumes.
+    const double specific_volume = records_[i * R::size + R::volume] * unit_volume / columns.mass(0, i);
+    for (int a = 0; a < Dim; ++a)
+      columns.acceleration(static_cast<std::size_t>(a), i) = specific_volume * per_unit * acceleration[a].lane(k);
+    columns.specific_energy_rate(0, i) = specific_volume * per_unit * heat.lane(k);
+    columns.zeroth_moment(0, i) = Support::moment_scale * moment[k];
+    columns.largest_mu(0, i) = -fastest[k];
+  }
+}
+
+}  // namespace ejecta
