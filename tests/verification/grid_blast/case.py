@@ -38,18 +38,18 @@ class GridBlast(GridCase):
     behind = 7.3425  # kg/m^3 behind the shock at 1 ms, from its speed of 23.85 km/s (Rankine and Hugoniot)
     length = 8.0
     bounds = (  # measured and 15 %
-        Bound("shock radius at 56 us", "relative", {20: 0.046, 40: 0.023, 80: 0.011}, why=EARLY),
-        Bound("shock radius at 100 us", "relative", {20: 0.037, 40: 0.016, 80: 0.0062}, why=EARLY),
-        Bound("shock radius at 225 us", "relative", {20: 0.012, 40: 0.0029, 80: 0.0022}, why=EARLY),
-        Bound("shock radius at 631 us", "relative", {20: 0.0048, 40: 0.0004, 80: 0.0014}, why=EARLY),
-        Bound("shock radius at 1000 us", "relative", {20: 0.0049, 40: 0.00027, 80: 0.0014}, why=EARLY),
-        Bound("density at 56 us", "L1", {20: 0.51, 40: 0.35, 80: 0.18}, why="as of the radius"),
-        Bound("density at 100 us", "L1", {20: 0.46, 40: 0.26, 80: 0.13}, why="as of the radius"),
-        Bound("density at 225 us", "L1", {20: 0.26, 40: 0.13, 80: 0.066}, 0.35),
-        Bound("density at 631 us", "L1", {20: 0.11, 40: 0.037, 80: 0.023}, 0.7),
-        Bound("density at 1000 us", "L1", {20: 0.087, 40: 0.028, 80: 0.024}, 0.65),
-        Bound("spread of the radius", "relative", {20: 0.0015, 40: 0.0004, 80: 0.00011}, 1.45),
-        Bound("peak density", "relative", {20: 0.17, 40: 0.11, 80: 0.058}, 0.7),
+        Bound("shock radius at 56 us", "relative", {20: 0.028, 40: 0.017, 80: 0.008}, why=EARLY),
+        Bound("shock radius at 100 us", "relative", {20: 0.028, 40: 0.012, 80: 0.0049}, why=EARLY),
+        Bound("shock radius at 225 us", "relative", {20: 0.0067, 40: 0.00078, 80: 0.0014}, why=EARLY),
+        Bound("shock radius at 631 us", "relative", {20: 0.0024, 40: 0.00085, 80: 0.00082}, why=EARLY),
+        Bound("shock radius at 1000 us", "relative", {20: 0.0033, 40: 0.00057, 80: 0.00087}, why=EARLY),
+        Bound("density at 56 us", "L1", {20: 0.46, 40: 0.33, 80: 0.17}, why="as of the radius"),
+        Bound("density at 100 us", "L1", {20: 0.41, 40: 0.24, 80: 0.12}, why="as of the radius"),
+        Bound("density at 225 us", "L1", {20: 0.23, 40: 0.11, 80: 0.056}, 0.5),
+        Bound("density at 631 us", "L1", {20: 0.088, 40: 0.033, 80: 0.013}, 1),
+        Bound("density at 1000 us", "L1", {20: 0.064, 40: 0.025, 80: 0.015}, 1.05),
+        Bound("spread of the radius", "relative", {20: 0.0016, 40: 0.00023, 80: 0.00014}, 1.5),
+        Bound("peak density", "relative", {20: 0.14, 40: 0.085, 80: 0.049}, 0.7),
     )
 
     def settings(self, resolution):
@@ -105,16 +105,16 @@ class GridBlast3D(GridBlast):
     radii = {100: 5.5151, 225: 9.3579, 631: 16.9029, 1000: 21.0663}
     behind = 7.3037  # from 9.585 km/s
     bounds = (  # measured and 15 %
-        Bound("shock radius at 100 us", "relative", {8: 0.47, 16: 0.046}, 3.25),
-        Bound("shock radius at 225 us", "relative", {8: 0.076, 16: 0.034}, 1.1),
-        Bound("shock radius at 631 us", "relative", {8: 0.019, 16: 0.015}, why=EARLY),
-        Bound("shock radius at 1000 us", "relative", {8: 0.016, 16: 0.012}, 0.3),
-        Bound("density at 100 us", "L1", {8: 0.68, 16: 0.58}, why="as of the radius"),
-        Bound("density at 225 us", "L1", {8: 0.64, 16: 0.47}, 0.4),
-        Bound("density at 631 us", "L1", {8: 0.41, 16: 0.28}, 0.5),
-        Bound("density at 1000 us", "L1", {8: 0.35, 16: 0.25}, 0.45),
-        Bound("spread of the radius", "relative", {8: 0.021, 16: 0.013}, 0.6),
-        Bound("peak density", "relative", {8: 0.57, 16: 0.42}, 0.35),
+        Bound("shock radius at 100 us", "relative", {8: 0.45, 16: 0.013}, 4.85),
+        Bound("shock radius at 225 us", "relative", {8: 0.033, 16: 0.014}, 1.2),
+        Bound("shock radius at 631 us", "relative", {8: 0.0083, 16: 0.0098}, why=EARLY),
+        Bound("shock radius at 1000 us", "relative", {8: 0.0078, 16: 0.0076}, why=EARLY),
+        Bound("density at 100 us", "L1", {8: 0.66, 16: 0.48}, why="as of the radius"),
+        Bound("density at 225 us", "L1", {8: 0.48, 16: 0.35}, 0.4),
+        Bound("density at 631 us", "L1", {8: 0.34, 16: 0.22}, 0.6),
+        Bound("density at 1000 us", "L1", {8: 0.29, 16: 0.21}, 0.45),
+        Bound("spread of the radius", "relative", {8: 0.018, 16: 0.013}, 0.45),
+        Bound("peak density", "relative", {8: 0.52, 16: 0.37}, 0.45),
     )
 
 

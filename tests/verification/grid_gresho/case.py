@@ -11,8 +11,8 @@ class GridGresho(GridCase, Gresho):
     bounds = (  # measured and 15 %
         Bound("velocity", "L1", {64: 0.012, 128: 0.0041}, 1.35),
         Bound("radial velocity", "L1", {64: 0.0021, 128: 0.00053}, 1.65),
-        Bound("peak speed", "relative", {64: 0.11, 128: 0.071}, 0.7),
-        Bound("angular momentum", "relative", {64: 0.00035, 128: 0.00012}, 2),
+        Bound("peak speed", "relative", {64: 0.11, 128: 0.071}, 0.75),
+        Bound("angular momentum", "relative", {64: 0.00035, 128: 0.00012}, 1.95),
     )
 
 

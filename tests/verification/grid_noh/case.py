@@ -11,15 +11,15 @@ class GridNohPlanar(GridCase, NohPlanar):
     title = "Noh's problem on a grid, planar, t = 0.6 s"
     full = (25, 50, 100, 200, 400)
     bounds = (  # measured and 15 %
-        Bound("density", "L1", {100: 0.04, 400: 0.019}, 0.75),
-        Bound("density", "Linf", 0.91, why="a cell inside the shock, whose width is a number of cells"),
-        Bound("velocity", "L1", {100: 0.02, 400: 0.0049}, 0.9),
-        Bound("velocity", "Linf", 0.53, why="a cell inside the shock, whose width is a number of cells"),
-        Bound("pressure", "L1", {100: 0.02, 400: 0.0053}, 0.9),
-        Bound("pressure", "Linf", 0.39, why="a cell inside the shock, whose width is a number of cells"),
-        Bound("energy", "L1", {100: 0.013, 400: 0.0044}, 0.8),
-        Bound("energy", "Linf", 0.33, why="a cell inside the shock, whose width is a number of cells"),
-        Bound("plateau density", "relative", {100: 0.0017, 400: 0.0002}, 0.6),
+        Bound("density", "L1", {100: 0.011, 400: 0.012}, 0.9),
+        Bound("density", "Linf", 0.51, why="a cell inside the shock, whose width is a number of cells"),
+        Bound("velocity", "L1", {100: 0.0087, 400: 0.0026}, 1),
+        Bound("velocity", "Linf", 0.37, why="a cell inside the shock, whose width is a number of cells"),
+        Bound("pressure", "L1", {100: 0.006, 400: 0.0021}, 1),
+        Bound("pressure", "Linf", 0.25, why="a cell inside the shock, whose width is a number of cells"),
+        Bound("energy", "L1", {100: 0.0043, 400: 0.0022}, 0.95),
+        Bound("energy", "Linf", 0.26, why="a cell inside the shock, whose width is a number of cells"),
+        Bound("plateau density", "relative", {100: 0.0011, 400: 8.8e-05}, 2.25),
         NO_NEGATIVE_ENERGY,
     )
 
@@ -37,11 +37,11 @@ class GridNohCylindrical(GridCase, NohCylindrical):
     quick = (25, 50, 100)
     full = (25, 50, 100, 200, 400)
     bounds = (  # measured and 15 %
-        Bound("density", "L1", {100: 0.32, 400: 0.073}, 1),
-        Bound("velocity", "L1", {100: 0.024, 400: 0.0055}, 1),
-        Bound("pressure", "L1", {100: 0.11, 400: 0.026}, 1),
-        Bound("energy", "L1", {100: 0.014, 400: 0.0035}, 1),
-        Bound("plateau density", "relative", {100: 0.023, 400: 0.0054}, 1.1),
+        Bound("density", "L1", {100: 0.19, 400: 0.05}, 0.9),
+        Bound("velocity", "L1", {100: 0.018, 400: 0.0045}, 0.7),
+        Bound("pressure", "L1", {100: 0.07, 400: 0.019}, 0.85),
+        Bound("energy", "L1", {100: 0.0083, 400: 0.0023}, 0.85),
+        Bound("plateau density", "relative", {100: 0.015, 400: 0.003}, 0.9),
         NO_NEGATIVE_ENERGY,
     )
 
@@ -53,11 +53,11 @@ class GridNohSpherical(GridCase, NohSpherical):
     quick = (20, 40)
     full = (20, 40)
     bounds = (  # measured and 15 %
-        Bound("density", "L1", {40: 4.3}, 1.05),
-        Bound("velocity", "L1", {40: 0.078}, 1.45),
-        Bound("pressure", "L1", {40: 1.4}, 1.15),
-        Bound("energy", "L1", {40: 0.046}, 1.5),
-        Bound("plateau density", "relative", {40: 0.19}, 1),
+        Bound("density", "L1", {40: 2.3}, 0.7),
+        Bound("velocity", "L1", {40: 0.04}, 0.9),
+        Bound("pressure", "L1", {40: 0.81}, 0.7),
+        Bound("energy", "L1", {40: 0.024}, 0.9),
+        Bound("plateau density", "relative", {40: 0.11}, 0.55),
         NO_NEGATIVE_ENERGY,
     )
 

@@ -10,11 +10,11 @@ class GridSedovCylindrical(GridCase, SedovCylindrical):
     quick = (25, 50)
     full = (25, 50, 100, 200)
     bounds = (  # measured and 15 %
-        Bound("density", "L1", {50: 0.13, 200: 0.041}, 0.5),
-        Bound("velocity", "L1", {50: 0.024, 200: 0.0079}, 0.75),
-        Bound("pressure", "L1", {50: 0.016, 200: 0.0052}, 0.65),
-        Bound("shock radius", "relative", {50: 0.0071, 200: 0.0037}, why="of the order of a tenth of a spacing"),
-        Bound("peak density", "relative", {50: 0.3, 200: 0.12}, 0.5),
+        Bound("density", "L1", {50: 0.096, 200: 0.032}, 0.6),
+        Bound("velocity", "L1", {50: 0.02, 200: 0.0073}, 0.65),
+        Bound("pressure", "L1", {50: 0.013, 200: 0.0041}, 0.7),
+        Bound("shock radius", "relative", {50: 0.0049, 200: 0.0028}, why="of the order of a tenth of a spacing"),
+        Bound("peak density", "relative", {50: 0.27, 200: 0.11}, 0.55),
         NO_NEGATIVE_ENERGY,
     )
 
@@ -26,11 +26,11 @@ class GridSedovSpherical(GridCase, SedovSpherical):
     quick = (16, 24)
     full = (16, 24, 40)
     bounds = (  # measured and 15 %
-        Bound("density", "L1", {24: 0.2, 40: 0.17}, 0.35),
-        Bound("velocity", "L1", {24: 0.051, 40: 0.033}, 0.7),
-        Bound("pressure", "L1", {24: 0.03, 40: 0.022}, 0.55),
-        Bound("shock radius", "relative", {24: 0.0059, 40: 0.0054}, 1.3),
-        Bound("peak density", "relative", {24: 0.54, 40: 0.41}, 0.3),
+        Bound("density", "L1", {24: 0.17, 40: 0.13}, 0.4),
+        Bound("velocity", "L1", {24: 0.04, 40: 0.027}, 0.65),
+        Bound("pressure", "L1", {24: 0.025, 40: 0.017}, 0.6),
+        Bound("shock radius", "relative", {24: 0.005, 40: 0.0036}, 0.95),
+        Bound("peak density", "relative", {24: 0.49, 40: 0.37}, 0.45),
         NO_NEGATIVE_ENERGY,
     )
 

@@ -41,11 +41,11 @@ class GridSod(Tube, Sod):
     full = (50, 100, 200, 400, 800)
     time = 0.2
     bounds = (  # measured and 15 %
-        Bound("density", "L1", {400: 0.00078, 800: 0.00042}, 0.8),
-        Bound("velocity", "L1", {400: 0.0015, 800: 0.0006}, 0.85),
-        Bound("pressure", "L1", {400: 0.00048, 800: 0.00024}, 0.9),
-        Bound("shock position", "spacings", 0.17, why="a share of a spacing"),
-        Bound("contact position", "spacings", 0.31, why="a share of a spacing"),
+        Bound("density", "L1", {400: 0.00073, 800: 0.00039}, 0.75),
+        Bound("velocity", "L1", {400: 0.0013, 800: 0.00044}, 0.75),
+        Bound("pressure", "L1", {400: 0.00042, 800: 0.0002}, 0.85),
+        Bound("shock position", "spacings", 0.12, why="a share of a spacing"),
+        Bound("contact position", "spacings", 0.23, why="a share of a spacing"),
     )
 
     def cells(self, resolution):
@@ -85,10 +85,10 @@ class Sonic(Toro):
     tube = ShockTube(Gas(1, 0.75, 1), Gas(0.125, 0, 0.1), 1.4)
     low, high, time = -0.3, 0.7, 0.2
     bounds = (  # measured and 15 %
-        Bound("density", "L1", {400: 0.0018, 1600: 0.00058}, 0.75),
-        Bound("velocity", "L1", {400: 0.0035, 1600: 0.00085}, 0.85),
-        Bound("pressure", "L1", {400: 0.0011, 1600: 0.0003}, 0.85),
-        Bound("energy", "L1", {400: 0.0098, 1600: 0.0033}, 0.8),
+        Bound("density", "L1", {400: 0.0017, 1600: 0.00054}, 0.75),
+        Bound("velocity", "L1", {400: 0.003, 1600: 0.00066}, 0.75),
+        Bound("pressure", "L1", {400: 0.00091, 1600: 0.00024}, 0.8),
+        Bound("energy", "L1", {400: 0.0094, 1600: 0.0032}, 0.8),
     )
 
     def check_exact(self):
@@ -118,10 +118,10 @@ class LeftBlast(Toro):
     printed = 460.894, 19.5975, 0.57506, 5.99924
     time = 0.012
     bounds = (  # measured and 15 %
-        Bound("density", "L1", {400: 0.041, 1600: 0.013}, 0.85),
-        Bound("velocity", "L1", {400: 0.11, 1600: 0.023}, 1),
-        Bound("pressure", "L1", {400: 2.0, 1600: 0.47}, 1),
-        Bound("energy", "L1", {400: 15.0, 1600: 4.9}, 0.8),
+        Bound("density", "L1", {400: 0.037, 1600: 0.012}, 0.85),
+        Bound("velocity", "L1", {400: 0.082, 1600: 0.018}, 1.05),
+        Bound("pressure", "L1", {400: 1.6, 1600: 0.37}, 1.05),
+        Bound("energy", "L1", {400: 15, 1600: 4.9}, 0.8),
     )
 
 
@@ -132,9 +132,9 @@ class RightBlast(Toro):
     printed = 46.0950, -6.19633, 5.99242, 0.57511
     time = 0.035
     bounds = (  # measured and 15 %
-        Bound("density", "L1", {400: 0.041, 1600: 0.014}, 0.75),
-        Bound("velocity", "L1", {400: 0.037, 1600: 0.011}, 0.85),
-        Bound("pressure", "L1", {400: 0.22, 1600: 0.064}, 0.85),
+        Bound("density", "L1", {400: 0.038, 1600: 0.013}, 0.75),
+        Bound("velocity", "L1", {400: 0.03, 1600: 0.009}, 0.85),
+        Bound("pressure", "L1", {400: 0.18, 1600: 0.055}, 0.85),
         Bound("energy", "L1", {400: 1.6, 1600: 0.51}, 0.75),
     )
 
@@ -146,10 +146,10 @@ class Meeting(Toro):
     printed = 1691.64, 8.68975, 14.2823, 31.0426
     time = 0.035
     bounds = (  # measured and 15 %
-        Bound("density", "L1", {400: 0.15, 1600: 0.054}, 0.7),
-        Bound("velocity", "L1", {400: 0.038, 1600: 0.017}, 0.7),
-        Bound("pressure", "L1", {400: 4.7, 1600: 2.1}, 0.6),
-        Bound("energy", "L1", {400: 1.4, 1600: 0.51}, 0.65),
+        Bound("density", "L1", {400: 0.14, 1600: 0.058}, 0.65),
+        Bound("velocity", "L1", {400: 0.031, 1600: 0.02}, 0.6),
+        Bound("pressure", "L1", {400: 4.7, 1600: 2.8}, 0.4),
+        Bound("energy", "L1", {400: 1.3, 1600: 0.53}, 0.65),
     )
 
 
@@ -162,8 +162,8 @@ class GridLeBlanc(Tube, LeBlanc):
     ends, low, high, time = "reflecting", -3, 6, 6
     bounds = (  # measured and 15 %
         Bound("density", "L1", {480: 0.00091, 1920: 0.00024}, 0.8),
-        Bound("velocity", "L1", {480: 0.011, 1920: 0.0028}, 0.7),
-        Bound("pressure", "L1", {480: 3.4e-05, 1920: 8.5e-06}, 0.9),
+        Bound("velocity", "L1", {480: 0.011, 1920: 0.0027}, 0.7),
+        Bound("pressure", "L1", {480: 3.5e-05, 1920: 8.5e-06}, 0.9),
         Bound("logarithm of density", "L1", {480: 0.054, 1920: 0.015}, 0.65),
         Bound("shock position", "relative", {480: 0.028, 1920: 0.0071}, 0.55),
         Bound("negative energy", "relative", 1e-12, why="there is none"),
@@ -179,10 +179,10 @@ class GridBlastWaves(GridCase, BlastWaves):
     full = (100, 200, 400, 800)
     rotation = True
     bounds = (  # measured and 15 %
-        Bound("density", "L1", {400: 0.082, 800: 0.024}, 0.75),
-        Bound("velocity", "L1", {400: 0.16, 800: 0.045}, 0.75),
-        Bound("pressure", "L1", {400: 2.0, 800: 0.62}, 0.95),
-        Bound("peak density", "relative", {400: 0.15, 800: 0.035}, 0.55),
+        Bound("density", "L1", {400: 0.08, 800: 0.026}, 0.75),
+        Bound("velocity", "L1", {400: 0.14, 800: 0.032}, 0.85),
+        Bound("pressure", "L1", {400: 1.9, 800: 0.55}, 0.85),
+        Bound("peak density", "relative", {400: 0.15, 800: 0.047}, 0.85),
     )
 
     def settings(self, resolution):

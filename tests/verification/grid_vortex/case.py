@@ -14,10 +14,10 @@ class GridVortex(GridCase):
     quick = (40, 80, 160)
     full = (40, 80, 160)
     bounds = (  # measured and 15 %
-        Bound("density", "L1", {160: 9.6e-05}, 2.55),
-        Bound("velocity", "L1", {160: 0.00026}, 2.4),
-        Bound("pressure", "L1", {160: 0.00012}, 2.65),
-        Bound("density", "Linf", {160: 0.002}, 2.45),
+        Bound("density", "L1", {160: 9.6e-05}, 2.45),
+        Bound("velocity", "L1", {160: 0.00026}, 2.35),
+        Bound("pressure", "L1", {160: 0.00012}, 2.6),
+        Bound("density", "Linf", {160: 0.002}, 2.4),
     )
 
     def settings(self, resolution):

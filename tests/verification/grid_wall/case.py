@@ -27,12 +27,12 @@ class GridWall(GridCase):
     tube = ShockTube(driver, Gas(driver.density, -driver.velocity, driver.pressure), GAMMA)
     back = 0.3  # m, from the wall to the shock at the end
     bounds = (  # measured and 15 %
-        Bound("reflected pressure", "relative", {400: 0.00049, 800: 0.0003}, 0.4),
-        Bound("reflected density", "relative", {400: 0.0013, 800: 0.00079}, 0.35),
-        Bound("pressure", "L1", {400: 0.0029, 800: 0.0015}, 0.9),
-        Bound("density", "L1", {400: 0.0034, 800: 0.0019}, 0.8),
-        Bound("shock position", "spacings", 0.078, why="a share of a spacing"),
-        Bound("density at the wall", "relative", {400: 0.027, 800: 0.028}, why="the heat of the first steps stays there"),
+        Bound("reflected pressure", "relative", {400: 0.00041, 800: 0.00023}, 0.65),
+        Bound("reflected density", "relative", {400: 0.0013, 800: 0.0011}, 0.3),
+        Bound("pressure", "L1", {400: 0.0013, 800: 0.00062}, 0.85),
+        Bound("density", "L1", {400: 0.0026, 800: 0.0016}, 0.7),
+        Bound("shock position", "spacings", 0.039, why="a share of a spacing"),
+        Bound("density at the wall", "relative", {400: 0.056, 800: 0.056}, why="the heat of the first steps stays there"),
     )
 
     def settings(self, resolution):
