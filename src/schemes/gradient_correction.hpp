@@ -59,7 +59,8 @@ GradientCorrection<Dim> gradient_correction(const Mat<Dim>& moment, double least
     return c;
   }
   const Eigen::JacobiSVD<Mat<Dim>> svd(moment, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const auto& s = svd.singularValues();
+  // A copy: GCC 12 takes a reference for uninitialised. NOLINTNEXTLINE(performance-unnecessary-copy-initialization)
+  const Vec<Dim> s = svd.singularValues();
   if (s[Dim - 1] >= least) {
     c.Q = inverse.transpose();
     return c;
