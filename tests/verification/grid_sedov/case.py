@@ -30,7 +30,7 @@ class GridSedovSpherical(GridCase, SedovSpherical):
         Bound("velocity", "L1", {24: 0.04, 40: 0.027}, 0.65),
         Bound("pressure", "L1", {24: 0.025, 40: 0.017}, 0.6),
         Bound("shock radius", "relative", {24: 0.005, 40: 0.0036}, 0.95),
-        Bound("peak density", "relative", {24: 0.49, 40: 0.37}, 0.45),
+        Bound("peak density", "relative", {24: 0.49, 40: 0.37}, 0.3),
         NO_NEGATIVE_ENERGY,
     )
 

@@ -182,7 +182,7 @@ class GridBlastWaves(GridCase, BlastWaves):
         Bound("density", "L1", {400: 0.08, 800: 0.026}, 0.75),
         Bound("velocity", "L1", {400: 0.14, 800: 0.032}, 0.85),
         Bound("pressure", "L1", {400: 1.9, 800: 0.55}, 0.85),
-        Bound("peak density", "relative", {400: 0.15, 800: 0.047}, 0.85),
+        Bound("peak density", "relative", {400: 0.15, 800: 0.047}, 0.5),
     )
 
     def settings(self, resolution):
