@@ -7,6 +7,7 @@
 
 #include "base/errors.hpp"
 #include "base/parallel.hpp"
+#include "grid/copy_cells.hpp"
 #include "grid/grid_fill.hpp"
 #include "scene/units.hpp"
 
@@ -17,33 +18,6 @@ namespace {
 constexpr int most_halvings = 12, most_repairs = 6;
 /// Where states jump at the start waves are faster than anything there is: the first step is short, and steps grow.
 constexpr double first_share = 0.05, growth = 1.3;
-/// An open face moves out when a wave is this near, and by at least so many cells or this share of the box.
-constexpr int near_cells = 8, least_growth = 32;
-constexpr double growth_share = 0.2;
-
-GridSettings settings_of(const Scene& scene) {
-  const auto section = scene.sections.find("grid");
-  return section == scene.sections.end() ? GridSettings{} : dynamic_cast<const GridSettings&>(*section->second);
-}
-
-/// Copies a box of cells from one arrangement of columns to another.
-template <int Dim>
-void copy_cells(const Box<Dim>& from_box, const Conserved<Dim>& from, const std::array<int, Dim>& begin,
-                const std::array<int, Dim>& count, const Box<Dim>& to_box, Conserved<Dim>& to,
-                const std::array<int, Dim>& shift) {
-  const int planes = Dim == 3 ? count[Dim - 1] : 1, rows = count[1];
-  for (int z = 0; z < planes; ++z)
-    for (int y = 0; y < rows; ++y) {
-      std::array<int, Dim> cell = begin;
-      cell[1] += y;
-      if constexpr (Dim == 3) cell[2] += z;
-      std::array<int, Dim> target = cell;
-      for (std::size_t a = 0; a < Dim; ++a) target[a] += shift[a];
-      const std::size_t i = from_box.index(cell), j = to_box.index(target);
-      for (std::size_t c = 0; c < from.size(); ++c)
-        std::copy_n(from[c].data() + i, count[0], to[c].data() + j);
-    }
-}
 
 }  // namespace
 
@@ -51,7 +25,7 @@ template <int Dim>
 Grid<Dim>::Grid(const Scene& scene, const std::vector<Material>& materials)
     : scene_(scene),
       material_(grid_material(scene, materials)),
-      settings_(settings_of(scene)),
+      settings_(grid_settings(scene)),
       box_(box_of<Dim>(scene)),
       now_(fill_cells<Dim>(scene, materials, box_)),
       ambient_(ambient_of<Dim>(scene, materials)) {
@@ -153,57 +127,6 @@ bool Grid<Dim>::is_quiet(std::size_t t) const {
     if (there && (!tiles_[other].uniform || cell(box_.index(tiles_[other].tile.begin)) != state)) return false;
   }
   return true;
-}
-
-/// Whether the cells of a tile between `low` and `high` along an axis are those of the gas.
-template <int Dim>
-bool Grid<Dim>::is_ambient(const Tile<Dim>& tile, std::size_t axis, int low, int high) const {
-  std::array<int, Dim> begin = tile.begin, end;
-  for (std::size_t a = 0; a < Dim; ++a) end[a] = tile.begin[a] + tile.count[a];
-  begin[axis] = std::max(begin[axis], low);
-  end[axis] = std::min(end[axis], high);
-  if (begin[axis] >= end[axis]) return true;
-  for (std::array<int, Dim> c = begin;;) {
-    if (cell(box_.index(c)) != ambient_) return false;
-    std::size_t a = 0;
-    while (a < Dim && ++c[a] == end[a]) {
-      c[a] = begin[a];
-      ++a;
-    }
-    if (a == Dim) return true;
-  }
-}
-
-template <int Dim>
-void Grid<Dim>::grow_if_needed() {
-  std::array<int, Dim> below{}, above{};
-  bool grows = false;
-  for (std::size_t a = 0; a < Dim; ++a) {
-    const auto disturbed = [&](bool upper) {
-      const int low = upper ? box_.cells[a] - near_cells : 0, high = upper ? box_.cells[a] : near_cells;
-      return std::ranges::any_of(tiles_, [&](const TileState& t) { return !is_ambient(t.tile, a, low, high); });
-    };
-    const int step = std::max(least_growth, static_cast<int>(growth_share * box_.cells[a]));
-    if (box_.grows_lower[a] && disturbed(false)) below[a] = step;
-    if (box_.grows_upper[a] && disturbed(true)) above[a] = step;
-    grows = grows || below[a] > 0 || above[a] > 0;
-  }
-  if (!grows) return;
-  Box<Dim> larger = box_;
-  for (std::size_t a = 0; a < Dim; ++a) {
-    larger.cells[a] += below[a] + above[a];
-    larger.corner[static_cast<int>(a)] -= below[a] * box_.spacing;
-  }
-  Conserved<Dim> cells;
-  for (std::size_t c = 0; c < cells.size(); ++c) cells[c].assign(larger.size(), ambient_[c]);
-  copy_cells<Dim>(box_, now_, {}, box_.cells, larger, cells, below);
-  const double added = static_cast<double>(larger.size() - box_.size()) * box_.cell_volume();
-  external.mass += added * ambient_[0];
-  for (int a = 0; a < Dim; ++a) external.impulse[a] += added * ambient_[static_cast<std::size_t>(1 + a)];
-  external.work += added * ambient_[Dim + 1];
-  box_ = larger;
-  now_ = std::move(cells);
-  cut_tiles();
 }
 
 template <int Dim>

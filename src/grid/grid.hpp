@@ -20,8 +20,8 @@ struct GridOutset {
   double mach = 0;      ///< u/c
 };
 
-/// A blast as it is now.
-struct Blast {
+/// The front of a blast as it is now.
+struct BlastFront {
   double radius;         ///< of the shock, mean over directions (model/shock_front.hpp) [m]
   double spread;         ///< root mean square deviation from it [m]
   double peak_density;   ///< anywhere [kg/m^3]
@@ -59,13 +59,13 @@ class Grid final : public Package {
   CellState<Dim> state(std::size_t cell) const { return cell_state<Dim>(material_.eos, now_, cell); }
   /// State at a point [m]: that of its cell; beyond faces that grow that of the gas, else nothing.
   std::optional<CellState<Dim>> at(const Vec<Dim>& x) const;
-  double ambient_density() const { return ambient_[0]; }  ///< of [gas] [kg/m^3]
+  CellState<Dim> ambient() const;  ///< of [gas]
   const GridOutset& outset() const { return outset_; }
   const Conserved<Dim>& cells() const { return now_; }
   /// From now on also those tiles in which nothing can change: for tests.
   void sweep_all_tiles() { skips_quiet_ = false; }
   /// The blast of the charge; nothing without one, or before there is a shock.
-  std::optional<Blast> blast() const;
+  std::optional<BlastFront> blast() const;
 
  private:
   struct TileState {

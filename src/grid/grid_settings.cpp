@@ -13,4 +13,9 @@ void GridSettings::describe(Describer& d) {
            "time step in crossings of a cell by a signal; else 0.8 in 2D, 0.45 in 3D");
 }
 
+GridSettings grid_settings(const Scene& scene) {
+  const auto section = scene.sections.find("grid");
+  return section == scene.sections.end() ? GridSettings{} : dynamic_cast<const GridSettings&>(*section->second);
+}
+
 }  // namespace ejecta

@@ -2,8 +2,7 @@
 #include <array>
 #include <string_view>
 
-#include "scene/choices.hpp"
-#include "scene/section.hpp"
+#include "scene/scene.hpp"
 
 namespace ejecta {
 
@@ -27,5 +26,8 @@ struct GridSettings final : SectionSettings {
   /// The share of a crossing of a cell that a step may take.
   double courant_in(int dimension) const { return is_set(courant) ? courant : dimension == 2 ? 0.8 : 0.45; }
 };
+
+/// Those of a scene; the defaults if it has no such section.
+GridSettings grid_settings(const Scene& scene);
 
 }  // namespace ejecta

@@ -40,14 +40,18 @@ std::optional<CellState<Dim>> Grid<Dim>::at(const Vec<Dim>& x) const {
     if ((cell[a] < 0 && !box_.grows_lower[a]) || (cell[a] >= box_.cells[a] && !box_.grows_upper[a])) return std::nullopt;
     beyond = beyond || cell[a] < 0 || cell[a] >= box_.cells[a];
   }
-  if (!beyond) return state(box_.index(cell));
+  return beyond ? ambient() : state(box_.index(cell));
+}
+
+template <int Dim>
+CellState<Dim> Grid<Dim>::ambient() const {
   Conserved<Dim> gas;
   for (std::size_t c = 0; c < gas.size(); ++c) gas[c] = {ambient_[c]};
   return cell_state<Dim>(material_.eos, gas, 0);
 }
 
 template <int Dim>
-std::optional<Blast> Grid<Dim>::blast() const {
+std::optional<BlastFront> Grid<Dim>::blast() const {
   if (!scene_.charge || !scene_.gas) return std::nullopt;
   Vec<Dim> centre;
   double farthest2 = 0;
@@ -57,9 +61,7 @@ std::optional<Blast> Grid<Dim>::blast() const {
     const double low = centre[a] - box_.corner[a], high = box_.cells[i] * box_.spacing - low;
     farthest2 += std::max(low, high) * std::max(low, high);
   }
-  Conserved<Dim> gas;
-  for (std::size_t c = 0; c < gas.size(); ++c) gas[c] = {ambient_[c]};
-  const double ambient = cell_state<Dim>(material_.eos, gas, 0).pressure;
+  const double pressure_around = ambient().pressure;
   const auto all = directions<Dim>();
   std::vector<std::optional<ShockFront>> fronts(all.size());
   parallel_blocks(all.size(), 1, [&](std::size_t k, std::size_t) {
@@ -68,11 +70,12 @@ std::optional<Blast> Grid<Dim>::blast() const {
       if (!pressure_near(centre + r * all[k], pressure)) break;
       radius.push_back(r);
     }
-    // A ray that ends at a mirror sees what its image sees; one that ends at a face in the shock sees no front.
-    fronts[k] = find_shock_front(radius, pressure, ambient);
+    if (radius.empty()) return;
+    // A ray that ends at a face sees no front there.
+    fronts[k] = find_shock_front(radius, pressure, pressure_around);
     if (fronts[k] && fronts[k]->radius > radius.back() - 2 * box_.spacing) fronts[k].reset();
   });
-  Blast blast{};
+  BlastFront blast{};
   int found = 0;
   double squares = 0;
   for (const auto& front : fronts) {
@@ -120,21 +123,18 @@ bool Grid<Dim>::pressure_near(const Vec<Dim>& x, std::vector<double>& pressure) 
 
 template <int Dim>
 Quantities Grid<Dim>::quantities() const {
-  double pressure = 0, least = std::numeric_limits<double>::infinity(), most = 0;
   std::vector<double> highest(reduction_blocks, -std::numeric_limits<double>::infinity());
   parallel_blocks(reduction_blocks, 1, [&](std::size_t b, std::size_t) {
     for (std::size_t i = b * box_.size() / reduction_blocks; i < (b + 1) * box_.size() / reduction_blocks; ++i)
       highest[b] = std::max(highest[b], state(i).pressure);
   });
-  pressure = std::ranges::max(highest);
-  const auto [low, high] = std::ranges::minmax(now_[0]);
-  least = low, most = high;
-  Quantities list{{"max pressure", "Pa", pressure, "highest of a cell", true},
+  const auto [least, most] = std::ranges::minmax(now_[0]);
+  Quantities list{{"max pressure", "Pa", std::ranges::max(highest), "highest of a cell", true},
                   {"min density", "kg/m^3", least, "lowest of a cell"},
                   {"max density", "kg/m^3", most, "highest of a cell"},
                   {"cells", "1", static_cast<std::int64_t>(box_.size()), "of the grid"}};
   if (!scene_.charge || !scene_.gas) return list;
-  const Blast now = blast().value_or(Blast{});
+  const BlastFront now = blast().value_or(BlastFront{});
   list.push_back({"shock radius", "m", now.radius, "mean over directions; 0 before there is a shock", true});
   list.push_back({"shock radius spread", "m", now.spread, "root mean square over directions"});
   list.push_back({"shock pressure", "Pa", now.peak_pressure, "largest behind the shock, mean over directions", true});
@@ -170,8 +170,10 @@ std::vector<Channel> Grid<Dim>::channels(const Asked& asked) const {
 
 template std::optional<CellState<2>> Grid<2>::at(const Vec<2>&) const;
 template std::optional<CellState<3>> Grid<3>::at(const Vec<3>&) const;
-template std::optional<Blast> Grid<2>::blast() const;
-template std::optional<Blast> Grid<3>::blast() const;
+template CellState<2> Grid<2>::ambient() const;
+template CellState<3> Grid<3>::ambient() const;
+template std::optional<BlastFront> Grid<2>::blast() const;
+template std::optional<BlastFront> Grid<3>::blast() const;
 template Quantities Grid<2>::quantities() const;
 template Quantities Grid<3>::quantities() const;
 template std::vector<Channel> Grid<2>::channels(const Asked&) const;

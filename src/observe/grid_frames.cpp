@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/parallel.hpp"
+#include "grid/blast_reach.hpp"
 #include "observe/channels.hpp"
 #include "observe/field_styles.hpp"
 
@@ -14,12 +15,6 @@ namespace ejecta {
 namespace {
 
 const std::vector<std::string> slice_fields{"density", "pressure", "mach"};
-
-/// How far the blast of a charge will have come, about [m]: a point source of its energy [Sedov 1959].
-double reach_of_blast(const Scene& scene, double density) {
-  const int d = scene.dimension;
-  return std::pow(scene.charge->energy_in(d) / density * scene.time_end * scene.time_end, 1.0 / (d + 2));
-}
 
 /// The box, or where it grows with a blast, what that will have swept.
 template <int Dim>
@@ -31,7 +26,7 @@ View view_of(const Scene& scene, const Grid<Dim>& grid) {
     const auto i = static_cast<std::size_t>(a);
     double low = box.corner[a], high = low + box.cells[i] * box.spacing;
     if (scene.charge && (box.grows_lower[i] || box.grows_upper[i])) {
-      const double reach = 1.15 * reach_of_blast(scene, grid.ambient_density());
+      const double reach = 1.15 * blast_reach(scene, grid.ambient().density);
       if (box.grows_lower[i]) low = std::min(low, scene.charge->center[i] - reach);
       if (box.grows_upper[i]) high = std::max(high, scene.charge->center[i] + reach);
     }
@@ -54,10 +49,10 @@ Extremes expected(const Scene& scene, const Grid<Dim>& grid) {
   e.speed = start.speed;
   e.mach = std::max(2.0, 1.5 * start.mach);
   if (!scene.charge || !scene.gas) return e;
-  const double r = reach_of_blast(scene, grid.ambient_density());
+  const double r = blast_reach(scene, grid.ambient().density);
   const double volume = Dim == 2 ? std::numbers::pi * r * r : 4 * std::numbers::pi / 3 * r * r * r;
   e.pressure = 1.5 * scene.charge->energy_in(Dim) / volume;
-  e.density = 6 * grid.ambient_density();
+  e.density = 6 * grid.ambient().density;
   return e;
 }
 

@@ -57,8 +57,9 @@ def bounds(speed):
     result = []
     for key, limits in LIMITS[speed].items():
         quantity, norm = key.rsplit(" ", 1)
-        order = (0.55 if speed == 200 else 0.5 if speed == 1500 and quantity != "alpha" else 0.8 if quantity != "alpha" else 0.6) if norm == "L1" else None
-        result.append(Bound(quantity, norm, dict(zip(CompactionShock.full, limits)), order, "" if order else WHY))
+        order = (0.55 if speed == 200 else 0.8 if quantity != "alpha" else 0.6) if norm == "L1" else None
+        result.append(Bound(quantity, norm, dict(zip(CompactionShock.full, limits)), order, "" if order else WHY,
+                            up_to=200 if speed == 1500 else float("inf")))
     return tuple(result)
 
 

@@ -15,6 +15,7 @@ class Bound:
     limits: dict | float
     order: float | None = None  # over the whole ladder
     why: str = ""  # where the limits come from; why no order is asked, if none is
+    up_to: float = float("inf")  # the order is that of the resolutions up to this one
 
     def limit(self, resolution):
         """The limit at a resolution, or None."""
@@ -23,6 +24,8 @@ class Bound:
     def __str__(self):
         limits = self.limits.items() if isinstance(self.limits, dict) else [("all", self.limits)]
         order = "no order asked" if self.order is None else f"order >= {self.order}"
+        if self.order is not None and self.up_to < float("inf"):
+            order += f" up to {self.up_to}"
         return ", ".join(f"<= {limit:.4g} at {r}" for r, limit in limits) + f", {order}"
 
 

@@ -47,8 +47,9 @@ def judge_errors(case, measurements):
             complaints.append(f"no limit on {' '.join(key)} applies to any of the resolutions {resolutions}")
         complaints += [f"{' '.join(key)} at {r}: {e:.5g}, the limit is {limit:.5g}" for r, e, limit in applied
                        if not e <= limit]
-        if bound.order is not None and len(resolutions) > 1 and not measured >= bound.order:
-            complaints.append(f"{' '.join(key)}: order {measured:.2f}, the least is {bound.order}")
+        asked = [(r, e) for r, e in zip(resolutions, errors) if r <= bound.up_to]
+        if bound.order is not None and len(asked) > 1 and not order(*zip(*asked)) >= bound.order:
+            complaints.append(f"{' '.join(key)}: order {order(*zip(*asked)):.2f}, the least is {bound.order}")
     cost = " ".join(f"{m.core_seconds:11.2f}" for m in measurements)
     print(f"{'core-seconds':{width}} {cost}")
     return complaints
