@@ -101,7 +101,7 @@ void check_implied(const Scene& scene, const Body& body, const Report& report) {
   if (body.name == Charge::name && !grid && is_set(scene.spacing) && 2 * body.radius < scene.spacing)
     report("charge.radius", fmt::format("expected at least one particle across, got {} at a spacing of {}",
                                         format_quantity(body.radius, "m"), format_quantity(scene.spacing, "m")));
-  if (body.name != Gas::name || grid) return;
+  if (body.name != Gas::name || grid || report.problems.has("numerics.scheme")) return;
   for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dimension); ++a)
     if (!is_set(body.size[a]))
       return report("gas", "needs boundary.min and boundary.max along every axis, so that particles can fill the box");
