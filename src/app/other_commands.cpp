@@ -40,7 +40,11 @@ int check_command(const std::string& scene_file, const std::vector<std::string>&
   const std::chrono::duration<double> set_up_time = std::chrono::steady_clock::now() - start;
   for (const auto& package : sim.packages) fmt::print("{}", package->outline());
   fmt::print("set-up\n");
-  for (const auto& package : sim.packages) fmt::print("  {:<18} {}\n", package->name(), package->elements());
+  for (const auto& package : sim.packages)
+    fmt::print("  {:<18} {}\n", fmt::format("{}s", package->element()), package->elements());
+  if (sim.clock.time > 0)
+    fmt::print("  begins at          {}, with a blast solved in one dimension so far\n",
+               format_quantity(sim.clock.time, "s"));
   fmt::print("  time               {}\n", format_quantity(set_up_time.count(), "s"));
   for (const Estimate& e : costs) {
     fmt::print("estimate\n");

@@ -97,18 +97,21 @@ int run(const Job& job) {
     spdlog::info("restarted from {} at t = {}", checkpoint->file.filename().string(), format_quantity(*resume_at, "s"));
     checkpoint.reset();  // as large as the state
   }
+  if (!resume_at && sim.clock.time > 0)
+    spdlog::info("begins at t = {} with a blast that has been solved in one dimension so far (charge.start)",
+                 format_quantity(sim.clock.time, "s"));
   const std::unique_ptr<Frames> frames_of_solver = make_frames(sim, job.folder, job.catalyst);
   Frames& frames = *frames_of_solver;
   if (job.restart) frames.resume(sim);
   const FragmentContext context = fragment_context(sim);
   Tables tables(job.scene, job.folder, frames, context, resume_at);
-  Checkpoints checkpoints(job.folder, job.resolved, job.scene, sim.clock.time);
+  Checkpoints checkpoints(job.folder, job.resolved, job.scene, resume_at);
   Shocks shocks(sim, job.folder, resume_at);
   Status status(sim, job.folder, frames, context);
   Progress progress;
   install_stop_signals();
   for (const auto& package : sim.packages)
-    spdlog::info("{}: {} {} in {}D, {} threads, {:.0f} bytes each", job.scene.name, package->elements(), package->name(),
+    spdlog::info("{}: {} {}s in {}D, {} threads, {:.0f} bytes each", job.scene.name, package->elements(), package->element(),
                  job.scene.dimension, max_threads(),
                  static_cast<double>(package->bytes()) / static_cast<double>(package->elements()));
   const std::vector<Observer*> observers{&frames, &tables, &shocks, &checkpoints, &status, &progress};

@@ -22,14 +22,15 @@ constexpr double first_share = 0.05, growth = 1.3;
 }  // namespace
 
 template <int Dim>
-Grid<Dim>::Grid(const Scene& scene, const std::vector<Material>& materials)
+Grid<Dim>::Grid(const Scene& scene, const std::vector<Material>& materials, const std::optional<RadialState>& start)
     : scene_(scene),
       material_(grid_material(scene, materials)),
       settings_(grid_settings(scene)),
-      box_(box_of<Dim>(scene)),
-      now_(fill_cells<Dim>(scene, materials, box_)),
+      box_(box_of<Dim>(scene, start ? start->radius() : 0)),
+      now_(fill_cells<Dim>(scene, materials, box_, start ? &*start : nullptr)),
       ambient_(ambient_of<Dim>(scene, materials)) {
   for (int k = 0; k < max_threads(); ++k) sweeps_.push_back(make_tile_sweep<Dim>(material_.eos, settings_));
+  if (start) clock.time = start->time;
   cut_tiles();
   initial = conserved();
   for (std::size_t i = 0; i < box_.size(); ++i) {

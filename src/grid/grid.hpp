@@ -8,6 +8,7 @@
 #include "grid/tile_sweep.hpp"
 #include "material/material.hpp"
 #include "model/package.hpp"
+#include "reference/charge_start.hpp"
 #include "scene/scene.hpp"
 
 namespace ejecta {
@@ -32,7 +33,8 @@ template <int Dim>
 class Grid final : public Package {
  public:
   /// Cells filled by the bodies of the scene. Throws InputError if the scene asks for what a grid cannot do.
-  Grid(const Scene& scene, const std::vector<Material>& materials);
+  Grid(const Scene& scene, const std::vector<Material>& materials)
+      : Grid(scene, materials, charge_start(scene, materials)) {}
 
   std::string_view name() const override { return "grid"; }
   Vote vote() override;
@@ -68,6 +70,7 @@ class Grid final : public Package {
   std::optional<BlastFront> blast() const;
 
  private:
+  Grid(const Scene& scene, const std::vector<Material>& materials, const std::optional<RadialState>& start);
   struct TileState {
     Tile<Dim> tile;
     bool uniform = false;  ///< all cells the same state

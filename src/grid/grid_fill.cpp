@@ -15,36 +15,14 @@ namespace {
 
 constexpr std::array axes{"x", "y", "z"};
 
-/// Points along an edge of a cell: to see whether states meet in it, and to weigh them if so.
+/// Points along an edge of a cell: to see whether states meet in it.
 template <int Dim>
 constexpr int probes = 4;
-template <int Dim>
-constexpr int samples = Dim == 2 ? 32 : 12;
-
-template <int Dim>
-std::array<double, Dim + 2> conserved_of(const Matter<Dim>& m) {
-  std::array<double, Dim + 2> u{};
-  u[0] = m.density;
-  for (int a = 0; a < Dim; ++a) u[static_cast<std::size_t>(1 + a)] = m.density * m.velocity[a];
-  u[Dim + 1] = m.density * (m.specific_energy + 0.5 * m.velocity.squaredNorm());
-  return u;
-}
-
-/// Calls see(x) at n points along each edge of a cell.
-template <int Dim, class See>
-void for_points(const Vec<Dim>& centre, double spacing, int n, See&& see) {
-  const int all = Dim == 2 ? n * n : n * n * n;
-  for (int k = 0; k < all; ++k) {
-    Vec<Dim> x = centre;
-    for (int a = 0, rest = k; a < Dim; ++a, rest /= n) x[a] += ((rest % n + 0.5) / n - 0.5) * spacing;
-    see(x);
-  }
-}
 
 }  // namespace
 
 template <int Dim>
-Box<Dim> box_of(const Scene& scene) {
+Box<Dim> box_of(const Scene& scene, double reached) {
   std::vector<std::string> problems;
   const auto report = [&](const std::string& key, const std::string& text) {
     problems.push_back(fmt::format("{}: {}: {}", scene.file, key, text));
@@ -60,7 +38,8 @@ Box<Dim> box_of(const Scene& scene) {
     double least = std::numeric_limits<double>::infinity(), most = -least;
     for (const Body& body : scene.bodies) {
       if (body.implied && body.name == Gas::name) continue;
-      const double half = with_shape<Dim>(body, [](const auto& shape) { return shape.half_extent(); })[static_cast<int>(a)];
+      double half = with_shape<Dim>(body, [](const auto& shape) { return shape.half_extent(); })[static_cast<int>(a)];
+      if (body.implied) half = std::max(half, reached);
       least = std::min(least, body.center[a] - half);
       most = std::max(most, body.center[a] + half);
     }
@@ -101,38 +80,32 @@ Box<Dim> box_of(const Scene& scene) {
 }
 
 template <int Dim>
-Conserved<Dim> fill_cells(const Scene& scene, const std::vector<Material>& materials, const Box<Dim>& box) {
-  const MatterAt<Dim> matter(scene, materials, scene.spacing);
+Conserved<Dim> fill_cells(const Scene& scene, const std::vector<Material>& materials, const Box<Dim>& box,
+                          const RadialState* around) {
+  const MatterAt<Dim> matter(scene, materials, scene.spacing, around);
   Conserved<Dim> cells;
   for (auto& column : cells) column.resize(box.size());
-  const auto at = [&](const Vec<Dim>& x) {
-    auto found = matter(x);
-    if (!found)
-      throw InputError(fmt::format("{}: bodies: expected something in every cell of the grid, got nothing at ({}) m; "
-                                   "[gas] fills what bodies leave",
-                                   scene.file, fmt::join(x.begin(), x.end(), ", ")));
-    return *found;
+  const auto refuse = [&](const Vec<Dim>& x) {
+    throw InputError(fmt::format("{}: bodies: expected something in every cell of the grid, got nothing in that at ({}) m; "
+                                 "[gas] fills what bodies leave",
+                                 scene.file, fmt::join(x.begin(), x.end(), ", ")));
   };
-  const bool varies = matter.varies();
   for (std::size_t i = 0; i < box.size(); ++i) {
     const Vec<Dim> centre = box.centre(box.cell(i));
-    const Matter<Dim> middle = at(centre);
+    const auto middle = matter(centre);
+    if (!middle) refuse(centre);
+    const bool varies = matter.varies(centre, box.spacing);
     bool mixed = false;
     for_points<Dim>(centre, box.spacing, probes<Dim>, [&](const Vec<Dim>& x) {
-      mixed = mixed || (varies ? at(x).body != middle.body : !at(x).same_state(middle));
+      const auto other = matter(x);
+      if (!other) refuse(centre);
+      mixed = mixed || (varies ? other->body != middle->body : !other->same_state(*middle));
     });
-    std::array<double, Dim + 2> u{};
-    if (!mixed && !varies) {
-      u = conserved_of(middle);
-    } else {
-      const int n = mixed ? samples<Dim> : probes<Dim>;
-      int count = 0;
-      for_points<Dim>(centre, box.spacing, n, [&](const Vec<Dim>& x) {
-        const auto part = conserved_of(at(x));
-        for (std::size_t c = 0; c < part.size(); ++c) u[c] += part[c];
-        ++count;
-      });
-      for (double& value : u) value /= count;
+    auto u = middle->conserved();
+    if (mixed || varies) {
+      const auto mean = matter.mean(centre, box.spacing, mixed || around ? cell_samples<Dim> : probes<Dim>);
+      if (!mean) refuse(centre);
+      u = *mean;
     }
     for (std::size_t c = 0; c < u.size(); ++c) cells[c][i] = u[c];
   }
@@ -142,7 +115,7 @@ Conserved<Dim> fill_cells(const Scene& scene, const std::vector<Material>& mater
 template <int Dim>
 std::array<double, Dim + 2> ambient_of(const Scene& scene, const std::vector<Material>& materials) {
   if (!scene.gas) return {};
-  return conserved_of(MatterAt<Dim>(scene, materials, scene.spacing).of_body(scene.bodies.size() - 1, Vec<Dim>::Zero()));
+  return MatterAt<Dim>(scene, materials, scene.spacing).of_body(scene.bodies.size() - 1, Vec<Dim>::Zero()).conserved();
 }
 
 const Material& grid_material(const Scene& scene, const std::vector<Material>& materials) {
@@ -170,10 +143,10 @@ const Material& grid_material(const Scene& scene, const std::vector<Material>& m
   return *std::ranges::find(materials, scene.bodies[0].material, &Material::name);
 }
 
-template Box<2> box_of<2>(const Scene&);
-template Box<3> box_of<3>(const Scene&);
-template Conserved<2> fill_cells<2>(const Scene&, const std::vector<Material>&, const Box<2>&);
-template Conserved<3> fill_cells<3>(const Scene&, const std::vector<Material>&, const Box<3>&);
+template Box<2> box_of<2>(const Scene&, double);
+template Box<3> box_of<3>(const Scene&, double);
+template Conserved<2> fill_cells<2>(const Scene&, const std::vector<Material>&, const Box<2>&, const RadialState*);
+template Conserved<3> fill_cells<3>(const Scene&, const std::vector<Material>&, const Box<3>&, const RadialState*);
 template std::array<double, 4> ambient_of<2>(const Scene&, const std::vector<Material>&);
 template std::array<double, 5> ambient_of<3>(const Scene&, const std::vector<Material>&);
 

@@ -9,8 +9,9 @@
 namespace ejecta {
 
 template <int Dim>
-MatterAt<Dim>::MatterAt(const Scene& scene, const std::vector<Material>& materials, double spacing)
-    : scene_(scene), spacing_(spacing), formulas_(scene.bodies.size()) {
+MatterAt<Dim>::MatterAt(const Scene& scene, const std::vector<Material>& materials, double spacing,
+                        const RadialState* around)
+    : scene_(scene), spacing_(spacing), around_(around), formulas_(scene.bodies.size()) {
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const Body& body = scene.bodies[b];
     material_.push_back(&*std::ranges::find(materials, body.material, &Material::name));
@@ -26,8 +27,9 @@ MatterAt<Dim>::MatterAt(const Scene& scene, const std::vector<Material>& materia
 }
 
 template <int Dim>
-bool MatterAt<Dim>::varies() const {
-  return std::ranges::any_of(formulas_, &Formulas::any);
+bool MatterAt<Dim>::varies(const Vec<Dim>& x, double distance) const {
+  return std::ranges::any_of(formulas_, &Formulas::any) ||
+         (around_ && (x - first_components<Dim>(around_->center)).norm() < around_->radius() + distance);
 }
 
 template <int Dim>
@@ -59,14 +61,45 @@ Matter<Dim> MatterAt<Dim>::of_body(std::size_t b, const Vec<Dim>& x) const {
 }
 
 template <int Dim>
+void MatterAt<Dim>::set_around(Matter<Dim>& m, const Vec<Dim>& x) const {
+  const Vec<Dim> d = x - first_components<Dim>(around_->center);
+  const double r = d.norm();
+  const auto cell = static_cast<std::size_t>(r / around_->spacing);
+  if (cell >= around_->density.size()) return;
+  m.density = around_->density[cell];
+  m.specific_energy = around_->specific_energy[cell];
+  m.velocity = r > 0 ? Vec<Dim>(around_->velocity[cell] / r * d) : Vec<Dim>::Zero();
+}
+
+template <int Dim>
 std::optional<Matter<Dim>> MatterAt<Dim>::operator()(const Vec<Dim>& x) const {
   for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {
     const Body& body = scene_.bodies[b];
     const bool background = body.implied && body.name == Gas::name;
     const Vec<Dim> d = x - first_components<Dim>(body.center);
-    if (background || with_shape<Dim>(body, [&](const auto& shape) { return shape.contains(d); })) return of_body(b, x);
+    if (!background && !with_shape<Dim>(body, [&](const auto& shape) { return shape.contains(d); })) continue;
+    Matter<Dim> m = of_body(b, x);
+    if (around_) set_around(m, x);
+    return m;
   }
   return std::nullopt;
+}
+
+template <int Dim>
+std::optional<std::array<double, Dim + 2>> MatterAt<Dim>::mean(const Vec<Dim>& x, double edge, int n) const {
+  std::array<double, Dim + 2> sum{};
+  int count = 0;
+  bool filled = true;
+  for_points<Dim>(x, edge, n, [&](const Vec<Dim>& point) {
+    const auto found = (*this)(point);
+    if (!found) return void(filled = false);
+    const auto u = found->conserved();
+    for (std::size_t c = 0; c < u.size(); ++c) sum[c] += u[c];
+    ++count;
+  });
+  if (!filled) return std::nullopt;
+  for (double& value : sum) value /= count;
+  return sum;
 }
 
 template class MatterAt<2>;

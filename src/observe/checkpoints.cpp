@@ -79,7 +79,8 @@ void Checkpoints::write_failed(const Simulation& sim) const {
                    checkpoint_view(sim, resolved_));
 }
 
-Checkpoints::Checkpoints(std::filesystem::path folder, std::string resolved, const Scene& scene, double time)
+Checkpoints::Checkpoints(std::filesystem::path folder, std::string resolved, const Scene& scene,
+                         std::optional<double> resume_at)
     : folder_(std::move(folder)),
       resolved_(std::move(resolved)),
       wait_(scene.output.checkpoint_interval * first_wait),
@@ -87,7 +88,7 @@ Checkpoints::Checkpoints(std::filesystem::path folder, std::string resolved, con
                                                     : std::numeric_limits<double>::infinity()),
       next_snapshot_(snapshot_interval_),
       times_(scene.output.times) {
-  pass_snapshots(time);
+  if (resume_at) pass_snapshots(*resume_at);
 }
 
 bool Checkpoints::pass_snapshots(double time) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <optional>
+#include <string>
 
 #include "observe/schedule.hpp"
 #include "output/checkpoint.hpp"
@@ -27,8 +29,8 @@ double dump_bytes(const Simulation& sim);
 
 class Checkpoints final : public Observer {
  public:
-  /// `time`: where the run begins or goes on [s].
-  Checkpoints(std::filesystem::path folder, std::string resolved, const Scene& scene, double time);
+  /// `resume_at`: where a restart goes on [s].
+  Checkpoints(std::filesystem::path folder, std::string resolved, const Scene& scene, std::optional<double> resume_at);
   double next_time() const override { return std::min(next_snapshot_, times_.next()); }
   void observe(Simulation& sim, bool last) override;
   /// The state of a failed step, for a look at it: checkpoints/failed_<step>.h5.

@@ -56,6 +56,20 @@ Extremes expected(const Scene& scene, const Grid<Dim>& grid) {
   return e;
 }
 
+/// The pixels without those beyond faces that stay where they are: nothing will ever be there.
+template <int Dim>
+PixelGrid within(PixelGrid pixels, const Box<Dim>& box) {
+  const auto trim = [&](std::size_t axis, std::size_t side, int& count) {
+    const double low = box.corner[static_cast<int>(axis)], high = low + box.cells[axis] * box.spacing;
+    double& first = pixels.first[side];
+    while (!box.grows_lower[axis] && count > 1 && first < low) first += pixels.pixel, --count;
+    while (!box.grows_upper[axis] && count > 1 && first + (count - 1) * pixels.pixel > high) --count;
+  };
+  trim(0, 0, pixels.width);
+  trim(Dim - 1, 1, pixels.height);
+  return pixels;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -63,7 +77,9 @@ GridFrames<Dim>::GridFrames(const Simulation& sim, const Grid<Dim>& grid, const 
                             bool catalyst)
     : Frames(sim, folder, catalyst,
              {view_of(sim.scene, grid), slice_fields, field_styles(sim.scene, expected(sim.scene, grid))}, {}),
-      grid_(grid) {}
+      grid_(grid) {
+  slice_grid_ = within(slice_grid_, grid.box());
+}
 
 /// What the cells hold at the centres of the pixels.
 template <int Dim>

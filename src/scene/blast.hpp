@@ -20,6 +20,7 @@ struct Charge {
   double energy_per_length = unset;  ///< J/m; in 2D, all of it internal
   double energy = unset;             ///< J; in 3D, all of it internal
   std::string material;              ///< empty: that of the gas
+  double start = unset;              ///< until then its blast is solved in one dimension [s]
 
   /// Of the whole charge [J; J/m in 2D].
   double energy_in(int dimension) const { return dimension == 2 ? energy_per_length : energy; }

@@ -98,7 +98,8 @@ void check_profile(const Scene& scene, const Body& body, const std::string& path
 /// A body that stands for [charge] or [gas].
 void check_implied(const Scene& scene, const Body& body, const Report& report) {
   const bool grid = scene.numerics.scheme == SchemeKind::fvm;
-  if (body.name == Charge::name && !grid && is_set(scene.spacing) && 2 * body.radius < scene.spacing)
+  const bool as_it_is = scene.charge && (!scene.gas || scene.charge->start == 0);  // else it is wider at the start
+  if (body.name == Charge::name && as_it_is && !grid && is_set(scene.spacing) && 2 * body.radius < scene.spacing)
     report("charge.radius", fmt::format("expected at least one particle across, got {} at a spacing of {}",
                                         format_quantity(body.radius, "m"), format_quantity(scene.spacing, "m")));
   if (body.name != Gas::name || grid || report.problems.has("numerics.scheme")) return;

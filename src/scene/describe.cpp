@@ -51,6 +51,9 @@ void describe(Describer& d, Charge& c) {
   d.number("energy_per_length", c.energy_per_length, "J/m", positive, "in 2D: of a cylinder, as internal energy");
   d.number("energy", c.energy, "J", positive, "in 3D: internal energy of the whole ball");
   d.text("material", c.material, "else that of the gas around it");
+  d.number("start", c.start, "s", non_negative,
+           "the run begins then, with what a solution in one dimension says; 0: with the charge itself; else, where there "
+           "is room, when the shock has come 16 spacings, at the latest at the first of output.times");
 }
 
 void describe(Describer& d, Gas& g) {

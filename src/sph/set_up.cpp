@@ -8,6 +8,7 @@
 #include "base/parallel.hpp"
 #include "material/material_reader.hpp"
 #include "particles/smoothing_metric.hpp"
+#include "reference/charge_start.hpp"
 #include "scene/units.hpp"
 #include "schemes/kernels.hpp"
 #include "schemes/lattice_sums.hpp"
@@ -140,6 +141,30 @@ void fill_columns(Sph<Dim>& sph, const std::vector<Placement<Dim>>& placements) 
   if (p.has(Field::intact_share)) std::ranges::fill(p.column(Field::intact_share), 1.0);
 }
 
+/// What a blast has become in one dimension in place of what the scene says: each particle has the mass, momentum and
+/// energy of the cube that it stands for.
+template <int Dim>
+void lay_blast(Sph<Dim>& sph, const RadialState& blast, const std::vector<Placement<Dim>>& placements) {
+  const MatterAt<Dim> matter(sph.scene, sph.materials, sph.scene.spacing, &blast);
+  Particles<Dim>& p = sph.particles;
+  for (std::size_t i = 0; i < placements.size(); ++i) {
+    const Placement<Dim>& s = placements[i];
+    if (!matter.varies(s.x, s.spacing)) continue;
+    const auto u = matter.mean(s.x, s.spacing, cell_samples<Dim>);
+    if (!u) continue;  // another body is that near
+    const double density = (*u)[0];
+    double squares = 0;
+    for (int a = 0; a < Dim; ++a) {
+      const double velocity = p.column(Field::velocity, a)[i] = (*u)[static_cast<std::size_t>(1 + a)] / density;
+      squares += velocity * velocity;
+    }
+    p.column(Field::density)[i] = density;
+    p.column(Field::mass)[i] = density * s.volume;
+    p.column(Field::specific_energy)[i] = (*u)[Dim + 1] / density - 0.5 * squares;
+  }
+  sph.clock.time = blast.time;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -150,10 +175,13 @@ std::unique_ptr<Sph<Dim>> set_up(const Scene& scene, const std::vector<Material>
   sph->materials = materials;
   sph->body_material = number_materials(scene, materials);
   sph->stages = choose_stages<Dim>(scene, materials);
-  const auto placements = place_bodies<Dim>(scene, materials, sph->body_material);
+  const auto blast = charge_start(scene, materials);
+  const auto placements =
+      place_bodies<Dim>(blast ? with_charge_of(*blast, scene) : scene, materials, sph->body_material);
   sph->particles.allocate(placements.size(), fields_of(sph->stages));
   fill_columns(*sph, placements);
   apply_profiles(*sph, placements);
+  if (blast) lay_blast(*sph, *blast, placements);
 
   const Numerics& numerics = scene.numerics;
   PairPassSettings settings;
