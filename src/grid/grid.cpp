@@ -62,14 +62,40 @@ void Grid<Dim>::cut_tiles() {
       state.tile.count[a] = std::min(shape[a], box_.cells[a] - state.tile.begin[a]);
       rest /= n;
     }
-    const TileResult<Dim> found = sweeps_[static_cast<std::size_t>(thread_index())]->look(box_, state.tile, now_);
-    if (!found.bad.empty())
-      throw SimulationError(fmt::format("{}: density or energy is not positive", describe(found.bad[0])));
-    state.uniform = found.uniform;
+    look(t);
     state.behind = false;
-    state.fastest = found.fastest;
-    state.where = found.where;
   });
+}
+
+/// What a tile is like, if not by a step.
+template <int Dim>
+void Grid<Dim>::look(std::size_t t) {
+  TileState& state = tiles_[t];
+  const TileResult<Dim> found = sweeps_[static_cast<std::size_t>(thread_index())]->look(box_, state.tile, now_);
+  if (!found.bad.empty())
+    throw SimulationError(fmt::format("{}: density or energy is not positive", describe(found.bad[0])));
+  state.uniform = found.uniform;
+  state.fastest = found.fastest;
+  state.where = found.where;
+}
+
+template <int Dim>
+void Grid<Dim>::put(const std::vector<std::size_t>& cells, const std::vector<std::array<double, Dim + 2>>& values) {
+  std::vector<char> touched(tiles_.size(), 0);
+  constexpr auto shape = tile_shape<Dim>();
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    for (std::size_t c = 0; c < values[k].size(); ++c) now_[c][cells[k]] = values[k][c];
+    const std::array<int, Dim> cell = box_.cell(cells[k]);
+    std::size_t t = 0;
+    for (std::size_t a = Dim; a-- > 0;)
+      t = t * static_cast<std::size_t>(tile_counts_[a]) + static_cast<std::size_t>(cell[a] / shape[a]);
+    touched[t] = 1;
+  }
+  for (std::size_t t = 0; t < tiles_.size(); ++t) {
+    if (!touched[t]) continue;
+    look(t);
+    tiles_[t].behind = true;
+  }
 }
 
 template <int Dim>
@@ -265,7 +291,7 @@ template <int Dim>
 void Grid<Dim>::advance(double dt) {
   free_step_ = vote().dt;
   timers.time("grid", [&] {
-    grow_if_needed();
+    make_room();
     step(dt, most_halvings);
   });
   clock = {clock.time + dt, dt, clock.step + 1};

@@ -21,14 +21,6 @@ struct GridOutset {
   double mach = 0;      ///< u/c
 };
 
-/// The front of a blast as it is now.
-struct BlastFront {
-  double radius;         ///< of the shock, mean over directions (model/shock_front.hpp) [m]
-  double spread;         ///< root mean square deviation from it [m]
-  double peak_density;   ///< anywhere [kg/m^3]
-  double peak_pressure;  ///< behind the shock, mean over directions [Pa]
-};
-
 template <int Dim>
 class Grid final : public Package {
  public:
@@ -66,8 +58,13 @@ class Grid final : public Package {
   const Conserved<Dim>& cells() const { return now_; }
   /// From now on also those tiles in which nothing can change: for tests.
   void sweep_all_tiles() { skips_quiet_ = false; }
-  /// The blast of the charge; nothing without one, or before there is a shock.
-  std::optional<BlastFront> blast() const;
+  std::optional<BlastFront> blast() const override;
+  /// Pressure at a point [Pa], linear between the centres of cells; nothing beyond the box.
+  std::optional<double> pressure_at(const Vec<Dim>& x) const;
+  /// Lets the box grow if a wave comes near its faces, as every step does first.
+  void make_room();
+  /// Changes what cells hold, between steps: mass, momentum and energy per volume.
+  void put(const std::vector<std::size_t>& cells, const std::vector<std::array<double, Dim + 2>>& values);
 
  private:
   Grid(const Scene& scene, const std::vector<Material>& materials, const std::optional<RadialState>& start);
@@ -80,12 +77,11 @@ class Grid final : public Package {
     std::array<double, Dim + 2> outflow{};  ///< in the last step
   };
 
-  bool pressure_near(const Vec<Dim>& x, std::vector<double>& pressure) const;
   void cut_tiles();
+  void look(std::size_t tile);
   /// Whether nothing can change in a tile: it and all around it are one state.
   bool is_quiet(std::size_t tile) const;
   bool is_ambient(const Tile<Dim>& tile, std::size_t axis, int low, int high) const;
-  void grow_if_needed();
   /// One step, or two halves of it, and so on, where densities or energies would not stay positive.
   void step(double dt, int halvings);
   bool try_step(double dt);

@@ -34,7 +34,7 @@ bool Grid<Dim>::is_ambient(const Tile<Dim>& tile, std::size_t axis, int low, int
 }
 
 template <int Dim>
-void Grid<Dim>::grow_if_needed() {
+void Grid<Dim>::make_room() {
   std::array<int, Dim> below{}, above{};
   bool grows = false;
   for (std::size_t a = 0; a < Dim; ++a) {
@@ -67,7 +67,7 @@ void Grid<Dim>::grow_if_needed() {
 
 template bool Grid<2>::is_ambient(const Tile<2>&, std::size_t, int, int) const;
 template bool Grid<3>::is_ambient(const Tile<3>&, std::size_t, int, int) const;
-template void Grid<2>::grow_if_needed();
-template void Grid<3>::grow_if_needed();
+template void Grid<2>::make_room();
+template void Grid<3>::make_room();
 
 }  // namespace ejecta

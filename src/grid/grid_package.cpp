@@ -53,7 +53,7 @@ Estimate estimate(const Scene& scene, const std::vector<Material>& materials) {
 
 PackageKind grid_package() {
   PackageKind kind;
-  kind.section = {"grid", "finite volumes: how fluxes are found", [] { return std::make_shared<GridSettings>(); }, "fvm"};
+  kind.section = {"grid", "finite volumes: how fluxes are found", [] { return std::make_shared<GridSettings>(); }, {"fvm", "hybrid"}};
   kind.set_up = [](const Scene& scene, const std::vector<Material>& materials) -> std::unique_ptr<Package> {
     if (scene.dimension == 2) return std::make_unique<Grid<2>>(scene, materials);
     return std::make_unique<Grid<3>>(scene, materials);

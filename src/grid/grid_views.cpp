@@ -1,35 +1,13 @@
 /// What a grid shows of itself.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "base/parallel.hpp"
 #include "grid/grid.hpp"
-#include "model/shock_front.hpp"
+#include "model/find_blast.hpp"
+#include "scene/shape_geometry.hpp"
 
 namespace ejecta {
-
-namespace {
-
-/// Directions spread evenly over the circle, or the sphere by the golden angle.
-template <int Dim>
-std::vector<Vec<Dim>> directions() {
-  std::vector<Vec<Dim>> list;
-  constexpr int count = Dim == 2 ? 180 : 400;
-  for (int k = 0; k < count; ++k) {
-    if constexpr (Dim == 2) {
-      const double angle = 2 * std::numbers::pi * (k + 0.5) / count;
-      list.push_back({std::cos(angle), std::sin(angle)});
-    } else {
-      const double z = 1 - 2 * (k + 0.5) / count, r = std::sqrt(1 - z * z);
-      const double angle = std::numbers::pi * (3 - std::sqrt(5.0)) * k;
-      list.push_back({r * std::cos(angle), r * std::sin(angle), z});
-    }
-  }
-  return list;
-}
-
-}  // namespace
 
 template <int Dim>
 std::optional<CellState<Dim>> Grid<Dim>::at(const Vec<Dim>& x) const {
@@ -53,55 +31,26 @@ CellState<Dim> Grid<Dim>::ambient() const {
 template <int Dim>
 std::optional<BlastFront> Grid<Dim>::blast() const {
   if (!scene_.charge || !scene_.gas) return std::nullopt;
-  Vec<Dim> centre;
+  const Vec<Dim> centre = first_components<Dim>(scene_.charge->center);
   double farthest2 = 0;
   for (int a = 0; a < Dim; ++a) {
-    const auto i = static_cast<std::size_t>(a);
-    centre[a] = scene_.charge->center[i];
-    const double low = centre[a] - box_.corner[a], high = box_.cells[i] * box_.spacing - low;
+    const double low = centre[a] - box_.corner[a], high = box_.cells[static_cast<std::size_t>(a)] * box_.spacing - low;
     farthest2 += std::max(low, high) * std::max(low, high);
   }
-  const double pressure_around = ambient().pressure;
-  const auto all = directions<Dim>();
-  std::vector<std::optional<ShockFront>> fronts(all.size());
-  parallel_blocks(all.size(), 1, [&](std::size_t k, std::size_t) {
-    std::vector<double> radius, pressure;
-    for (double r = 0.5 * box_.spacing; r * r < farthest2; r += 0.5 * box_.spacing) {
-      if (!pressure_near(centre + r * all[k], pressure)) break;
-      radius.push_back(r);
-    }
-    if (radius.empty()) return;
-    // A ray that ends at a face sees no front there.
-    fronts[k] = find_shock_front(radius, pressure, pressure_around);
-    if (fronts[k] && fronts[k]->radius > radius.back() - 2 * box_.spacing) fronts[k].reset();
-  });
-  BlastFront blast{};
-  int found = 0;
-  double squares = 0;
-  for (const auto& front : fronts) {
-    if (!front) continue;
-    blast.radius += front->radius;
-    squares += front->radius * front->radius;
-    blast.peak_pressure += front->peak_pressure;
-    ++found;
-  }
-  if (found == 0) return std::nullopt;
-  blast.radius /= found;
-  blast.peak_pressure /= found;
-  blast.spread = std::sqrt(std::max(0.0, squares / found - blast.radius * blast.radius));
-  blast.peak_density = *std::ranges::max_element(now_[0]);
+  auto blast = find_blast<Dim>(centre, box_.spacing, std::sqrt(farthest2), ambient().pressure,
+                               [&](const Vec<Dim>& x) { return pressure_at(x); });
+  if (blast) blast->peak_density = *std::ranges::max_element(now_[0]);
   return blast;
 }
 
-/// Adds the pressure at a point, linear between the centres of cells; false beyond the box.
 template <int Dim>
-bool Grid<Dim>::pressure_near(const Vec<Dim>& x, std::vector<double>& pressure) const {
+std::optional<double> Grid<Dim>::pressure_at(const Vec<Dim>& x) const {
   std::array<int, Dim> cell{};
   Vec<Dim> share;
   for (std::size_t a = 0; a < Dim; ++a) {
     const auto i = static_cast<int>(a);
     const double place = (x[i] - box_.corner[i]) / box_.spacing;
-    if (place < 0 || place > box_.cells[a]) return false;
+    if (place < 0 || place > box_.cells[a]) return std::nullopt;
     const double middle = std::clamp(place - 0.5, 0.0, box_.cells[a] - 1.0);
     cell[a] = std::min(static_cast<int>(middle), std::max(0, box_.cells[a] - 2));
     share[i] = middle - cell[a];
@@ -117,8 +66,7 @@ bool Grid<Dim>::pressure_near(const Vec<Dim>& x, std::vector<double>& pressure) 
     }
     if (weight > 0) sum += weight * state(box_.index(at)).pressure;
   }
-  pressure.push_back(sum);
-  return true;
+  return sum;
 }
 
 template <int Dim>
@@ -172,6 +120,8 @@ template std::optional<CellState<2>> Grid<2>::at(const Vec<2>&) const;
 template std::optional<CellState<3>> Grid<3>::at(const Vec<3>&) const;
 template CellState<2> Grid<2>::ambient() const;
 template CellState<3> Grid<3>::ambient() const;
+template std::optional<double> Grid<2>::pressure_at(const Vec<2>&) const;
+template std::optional<double> Grid<3>::pressure_at(const Vec<3>&) const;
 template std::optional<BlastFront> Grid<2>::blast() const;
 template std::optional<BlastFront> Grid<3>::blast() const;
 template Quantities Grid<2>::quantities() const;

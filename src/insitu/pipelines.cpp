@@ -57,7 +57,7 @@ std::string syntax_problem(const std::string& path) {
 std::vector<std::string> default_pipelines(const Scene& scene) {
   const std::filesystem::path folder = data_folder() / "catalyst_scripts";
   std::vector<std::string> scripts{folder / "slice.py"};
-  if (scene.numerics.scheme != SchemeKind::fvm) scripts.push_back(folder / "cutaway.py");
+  if (!scene.numerics.on_grid()) scripts.push_back(folder / "cutaway.py");
   if (scene.fragments.enabled) scripts.push_back(folder / "fragments.py");
   return scripts;
 }

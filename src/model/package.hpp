@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "model/clock.hpp"
 #include "model/conserved.hpp"
 #include "model/quantity.hpp"
+#include "model/shock_front.hpp"
 
 namespace ejecta {
 
@@ -67,11 +69,16 @@ class Package {
   virtual std::string describe(std::size_t culprit) const = 0;
   /// Where a culprit belongs, in a word or two, for the line of progress; may be empty.
   virtual std::string whereabouts(std::size_t) const { return ""; }
+  /// The blast of the charge; nothing without one, or before there is a shock.
+  virtual std::optional<BlastFront> blast() const { return std::nullopt; }
   virtual std::string_view element() const { return "element"; }  ///< what it is made of: "particle", "cell"
   virtual std::size_t elements() const = 0;                       ///< how many
   /// Steps of single elements so far: what the speed is counted in.
   virtual double element_steps() const { return static_cast<double>(elements()) * static_cast<double>(clock.step); }
   virtual std::size_t bytes() const = 0;     ///< memory
+
+  /// Solvers that it drives: they are saved and shown like those of the run, which does not step them itself.
+  virtual std::vector<Package*> parts() const { return {}; }
 
   Clock clock;
   Totals initial;         ///< conserved() at the start

@@ -7,6 +7,14 @@
 
 namespace ejecta {
 
+/// The front of a blast as it is now.
+struct BlastFront {
+  double radius;         ///< of the shock, mean over directions [m]
+  double spread;         ///< root mean square deviation from it [m]
+  double peak_density;   ///< anywhere [kg/m^3]
+  double peak_pressure;  ///< behind the shock, mean over directions [Pa]
+};
+
 struct ShockFront {
   double radius;         ///< m
   double peak_pressure;  ///< behind the shock [Pa]

@@ -101,12 +101,12 @@ void Frames::draw_without_gl(const Simulation& sim) {
 
 std::unique_ptr<Frames> make_frames(const Simulation& sim, const std::filesystem::path& folder, bool catalyst) {
   std::unique_ptr<Frames> frames;
-  with_particles(sim, [&]<int Dim>(const Sph<Dim>& sph) {
-    frames = std::make_unique<ParticleFrames<Dim>>(sim, sph, folder, catalyst);
+  with_grid(sim, [&]<int Dim>(const Grid<Dim>& grid) {  // where there are particles besides, it holds all matter
+    frames = std::make_unique<GridFrames<Dim>>(sim, grid, folder, catalyst);
   });
   if (frames) return frames;
-  with_grid(sim, [&]<int Dim>(const Grid<Dim>& grid) {
-    frames = std::make_unique<GridFrames<Dim>>(sim, grid, folder, catalyst);
+  with_particles(sim, [&]<int Dim>(const Sph<Dim>& sph) {
+    frames = std::make_unique<ParticleFrames<Dim>>(sim, sph, folder, catalyst);
   });
   return frames;
 }

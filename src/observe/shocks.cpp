@@ -28,9 +28,9 @@ void Shocks::observe(Simulation& sim, bool last) {
 }
 
 void Shocks::write_row(const Simulation& sim) {
-  with_grid(sim, [&](const auto& grid) {
-    const auto blast = grid.blast();
-    if (!blast) return;
+  for (const auto& package : sim.packages) {
+    const auto blast = package->blast();
+    if (!blast) continue;
     if (!rows_) {
       const std::array<CsvColumn, 4> columns{
           {{"time", "s"}, {"radius", "m"}, {"peak_density", "kg/m^3"}, {"peak_pressure", "Pa"}}};
@@ -40,7 +40,7 @@ void Shocks::write_row(const Simulation& sim) {
         rows_.emplace(folder_ / "shock.csv", columns);
     }
     rows_->row(std::array<CsvCell, 4>{sim.clock.time, blast->radius, blast->peak_density, blast->peak_pressure});
-  });
+  }
 }
 
 void Shocks::write_lineouts(const Simulation& sim) const {

@@ -6,9 +6,10 @@
 
 namespace ejecta {
 
-/// Calls see(sph) if the simulation has particles.
+/// Calls see(sph) if the matter of the simulation is particles: those of a hybrid are gone tomorrow.
 template <class See>
 void with_particles(const Simulation& sim, See&& see) {
+  if (sim.scene.numerics.on_grid()) return;
   if (const auto* flat = find_package<Sph<2>>(sim)) see(*flat);
   if (const auto* full = find_package<Sph<3>>(sim)) see(*full);
 }

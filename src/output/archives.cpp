@@ -72,11 +72,13 @@ void go_through(Archive& archive, Package& package) {
 }  // namespace
 
 void save(Package& package, CheckpointView& view) {
+  for (Package* part : package.parts()) save(*part, view);
   Writer writer(view, prefix_of(package));
   go_through(writer, package);
 }
 
 void load(Package& package, const Checkpoint& checkpoint) {
+  for (Package* part : package.parts()) load(*part, checkpoint);
   package.clock = {checkpoint.time, checkpoint.dt, checkpoint.step};  // of checkpoints that hold no clock of a package
   Reader reader(checkpoint, prefix_of(package));
   go_through(reader, package);

@@ -97,7 +97,7 @@ void check_profile(const Scene& scene, const Body& body, const std::string& path
 
 /// A body that stands for [charge] or [gas].
 void check_implied(const Scene& scene, const Body& body, const Report& report) {
-  const bool grid = scene.numerics.scheme == SchemeKind::fvm;
+  const bool grid = scene.numerics.on_grid();
   const bool as_it_is = scene.charge && (!scene.gas || scene.charge->start == 0);  // else it is wider at the start
   if (body.name == Charge::name && as_it_is && !grid && is_set(scene.spacing) && 2 * body.radius < scene.spacing)
     report("charge.radius", fmt::format("expected at least one particle across, got {} at a spacing of {}",

@@ -66,7 +66,8 @@ void describe(Describer& d, Gas& g) {
 void describe(Describer& d, Numerics& n) {
   d.choice("scheme", n.scheme,
            "particles smoothed over a length h (sph) or a tensor H (asph, ellipsoids); the same with Riemann problems "
-           "between neighbours, for gases (gsph, agsph); fvm: finite volumes on a grid");
+           "between neighbours, for gases (gsph, agsph); fvm: finite volumes on a grid; hybrid: the same, with gsph "
+           "where shocks are");
   d.choice("kernel", n.kernel, "smoothing kernel");
   d.choice("precision", n.precision, "of the pair passes; mixed: pair differences in float, sums and states in double");
   d.choice("density", n.density, "continuity for solids; summation for gases only; gsph: summation unless given");

@@ -11,7 +11,7 @@ constexpr auto enum_names(Kernel) {
   return std::to_array<std::string_view>({"cubic_spline", "quintic_spline", "wendland_c2", "wendland_c4"});
 }
 constexpr auto enum_names(SchemeKind) {
-  return std::to_array<std::string_view>({"sph", "asph", "fvm", "gsph", "agsph"});
+  return std::to_array<std::string_view>({"sph", "asph", "fvm", "gsph", "agsph", "hybrid"});
 }
 constexpr auto enum_names(PairRiemann) { return std::to_array<std::string_view>({"approximate", "exact"}); }
 constexpr auto enum_names(PairLimiter) {

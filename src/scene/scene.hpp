@@ -17,7 +17,7 @@
 
 namespace ejecta {
 
-enum class SchemeKind { sph, asph, fvm, gsph, agsph };
+enum class SchemeKind { sph, asph, fvm, gsph, agsph, hybrid };
 enum class DensityMethod { continuity, summation };
 enum class Lattice { cubic, hexagonal, glass };
 enum class OnError { continue_run, abort };
@@ -62,7 +62,11 @@ std::vector<double> widths(const Body& body, int dimension);
 struct Numerics {
   /// Smoothing tensors; fluxes of Riemann problems.
   bool tensors() const { return scheme == SchemeKind::asph || scheme == SchemeKind::agsph; }
-  bool godunov() const { return scheme == SchemeKind::gsph || scheme == SchemeKind::agsph; }
+  bool godunov() const {
+    return scheme == SchemeKind::gsph || scheme == SchemeKind::agsph || scheme == SchemeKind::hybrid;
+  }
+  /// Whether all matter is on a grid, perhaps with particles besides.
+  bool on_grid() const { return scheme == SchemeKind::fvm || scheme == SchemeKind::hybrid; }
   /// What damps a difference of velocities, as coefficients of Monaghan's viscosity. A Riemann problem between like
   /// gases has p* - p = rho u (c + (gamma + 1)/4 u), u half of what they close by [Toro 2009, sect. 3.1.3].
   double damping_alpha() const { return godunov() ? 1 : viscosity_alpha; }

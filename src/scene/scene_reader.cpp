@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "base/data_folder.hpp"
@@ -70,11 +71,11 @@ void check_ranges(const Document& document, const std::map<std::string, std::str
   }
 }
 
-/// Whether numerics.scheme is this word: sections that come with a scheme have to be known before it is read.
-bool asks_for(const Document& document, const std::string& scheme) {
+/// Whether numerics.scheme is one of these words: sections that come with a scheme have to be known before it is read.
+bool asks_for(const Document& document, const std::vector<std::string>& schemes) {
   const auto item = document.items.find("numerics.scheme");
   const auto* word = item == document.items.end() ? nullptr : std::get_if<std::string>(&item->second.literal.value);
-  return word && !scheme.empty() && *word == scheme;
+  return word && std::ranges::find(schemes, *word) != schemes.end();
 }
 
 Scene interpret(Document document, const std::vector<std::string>& overrides, const SceneContext& context) {
@@ -90,12 +91,12 @@ Scene interpret(Document document, const std::vector<std::string>& overrides, co
   scene.file = document.file;
   take_materials(document, scene, problems);
   for (const SceneSection& section : context.sections)
-    if (document.holds(section.name) || asks_for(document, section.scheme))
+    if (document.holds(section.name) || asks_for(document, section.schemes))
       scene.sections[section.name] = section.settings();
   for (const SceneSection& section : context.sections)
-    if (document.holds(section.name) && !section.scheme.empty() && !asks_for(document, section.scheme))
+    if (document.holds(section.name) && !section.schemes.empty() && !asks_for(document, section.schemes))
       problems.add(document.origin(section.name), section.name,
-                   fmt::format("expected numerics.scheme = \"{}\" with it", section.scheme));
+                   fmt::format("expected numerics.scheme = \"{}\" with it", fmt::join(section.schemes, "\" or \"")));
   if (document.holds("charge")) scene.charge.emplace();
   if (document.holds("gas")) scene.gas.emplace();
   Describer description(document);

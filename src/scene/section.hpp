@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace ejecta {
 
@@ -17,7 +18,7 @@ struct SectionSettings {
 struct SceneSection {
   std::string name, doc;  ///< "grid", "one sentence"
   std::function<std::shared_ptr<SectionSettings>()> settings;
-  std::string scheme{};  ///< word of numerics.scheme with which it is there even if nobody has written it
+  std::vector<std::string> schemes{};  ///< words of numerics.scheme with which it is there even if nobody has written it
 };
 
 }  // namespace ejecta

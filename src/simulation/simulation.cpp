@@ -109,8 +109,13 @@ double element_steps(const Simulation& sim) {
 
 std::vector<StageTimers::Entry> wall_times(const Simulation& sim) {
   std::vector<StageTimers::Entry> all;
-  for (const auto& package : sim.packages)
-    all.insert(all.end(), package->timers.entries().begin(), package->timers.entries().end());
+  const auto add = [&](const Package& package) {
+    all.insert(all.end(), package.timers.entries().begin(), package.timers.entries().end());
+  };
+  for (const auto& package : sim.packages) {
+    add(*package);
+    for (const Package* part : package->parts()) add(*part);
+  }
   all.insert(all.end(), sim.timers.entries().begin(), sim.timers.entries().end());
   return all;
 }

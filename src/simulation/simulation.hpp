@@ -26,8 +26,11 @@ Simulation set_up_simulation(const Scene& scene, const std::vector<Material>& ma
 /// The package of a type, for those who look at one solver alone; null if it is not there.
 template <class Solver>
 const Solver* find_package(const Simulation& sim) {
-  for (const auto& package : sim.packages)
+  for (const auto& package : sim.packages) {
     if (const auto* found = dynamic_cast<const Solver*>(package.get())) return found;
+    for (const Package* part : package->parts())
+      if (const auto* found = dynamic_cast<const Solver*>(part)) return found;
+  }
   return nullptr;
 }
 /// The same where it must be there. Throws std::bad_cast.

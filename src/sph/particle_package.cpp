@@ -10,7 +10,7 @@ PackageKind particle_package() {
     if (scene.dimension == 2) return set_up<2>(scene, materials);
     return set_up<3>(scene, materials);
   };
-  kind.takes_part = [](const Scene& scene) { return scene.numerics.scheme != SchemeKind::fvm; };
+  kind.takes_part = [](const Scene& scene) { return !scene.numerics.on_grid(); };
   kind.estimate = estimate_particles;
   for (const FieldInfo& field : field_catalogue())
     if (field.role != Role::rate) kind.fields.emplace(field.name, field.unit);

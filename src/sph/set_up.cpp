@@ -13,17 +13,14 @@
 #include "schemes/kernels.hpp"
 #include "schemes/lattice_sums.hpp"
 #include "schemes/pair_records.hpp"
+#include "sph/assemble.hpp"
 #include "sph/criteria.hpp"
 #include "sph/diagnostics.hpp"
 #include "sph/pieces.hpp"
-#include "sph/placement.hpp"
 #include "sph/stages.hpp"
 
 namespace ejecta {
 
-namespace {
-
-/// Material number of each body: its place in the list of materials by name.
 std::vector<int> number_materials(const Scene& scene, const std::vector<Material>& materials) {
   std::vector<int> numbers;
   for (const Body& body : scene.bodies) {
@@ -33,6 +30,8 @@ std::vector<int> number_materials(const Scene& scene, const std::vector<Material
   }
   return numbers;
 }
+
+namespace {
 
 /// A particle meets each other one once in a periodic box, and itself not at all, only if the box is wider than the
 /// kernel reaches; images are made one box length away and no further.
@@ -169,19 +168,28 @@ void lay_blast(Sph<Dim>& sph, const RadialState& blast, const std::vector<Placem
 
 template <int Dim>
 std::unique_ptr<Sph<Dim>> set_up(const Scene& scene, const std::vector<Material>& materials) {
+  const auto blast = charge_start(scene, materials);
+  const auto placements = place_bodies<Dim>(blast ? with_charge_of(*blast, scene) : scene, materials,
+                                            number_materials(scene, materials));
+  return assemble<Dim>(scene, materials, choose_stages<Dim>(scene, materials), placements, [&](Sph<Dim>& sph) {
+    apply_profiles(sph, placements);
+    if (blast) lay_blast(sph, *blast, placements);
+  });
+}
+
+template <int Dim>
+std::unique_ptr<Sph<Dim>> assemble(const Scene& scene, const std::vector<Material>& materials,
+                                   std::vector<Stage<Dim>> stages, const std::vector<Placement<Dim>>& placements,
+                                   const std::function<void(Sph<Dim>&)>& lay) {
   check_periodic_width(scene);
   auto sph = std::make_unique<Sph<Dim>>();
   sph->scene = scene;
   sph->materials = materials;
   sph->body_material = number_materials(scene, materials);
-  sph->stages = choose_stages<Dim>(scene, materials);
-  const auto blast = charge_start(scene, materials);
-  const auto placements =
-      place_bodies<Dim>(blast ? with_charge_of(*blast, scene) : scene, materials, sph->body_material);
+  sph->stages = std::move(stages);
   sph->particles.allocate(placements.size(), fields_of(sph->stages));
   fill_columns(*sph, placements);
-  apply_profiles(*sph, placements);
-  if (blast) lay_blast(*sph, *blast, placements);
+  lay(*sph);
 
   const Numerics& numerics = scene.numerics;
   PairPassSettings settings;
@@ -227,6 +235,10 @@ std::unique_ptr<Sph<Dim>> set_up(const Scene& scene, const std::vector<Material>
   return sph;
 }
 
+template std::unique_ptr<Sph<2>> assemble<2>(const Scene&, const std::vector<Material>&, std::vector<Stage<2>>,
+                                             const std::vector<Placement<2>>&, const std::function<void(Sph<2>&)>&);
+template std::unique_ptr<Sph<3>> assemble<3>(const Scene&, const std::vector<Material>&, std::vector<Stage<3>>,
+                                             const std::vector<Placement<3>>&, const std::function<void(Sph<3>&)>&);
 template std::unique_ptr<Sph<2>> set_up<2>(const Scene&, const std::vector<Material>&);
 template std::unique_ptr<Sph<3>> set_up<3>(const Scene&, const std::vector<Material>&);
 

@@ -1,0 +1,436 @@
+#include "hybrid/hybrid.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/errors.hpp"
+#include "hybrid/flux_correction.hpp"
+#include "hybrid/restriction.hpp"
+#include "material/matter_at.hpp"
+#include "model/find_blast.hpp"
+#include "scene/shape_geometry.hpp"
+#include "scene/units.hpp"
+#include "schemes/kernels.hpp"
+#include "sph/assemble.hpp"
+#include "sph/stages.hpp"
+
+namespace ejecta {
+
+namespace {
+
+/// A cell that particles cover less than this says nothing.
+constexpr double least_covered = 0.5;
+/// Particles come where no other one is nearer than this share of the mean of their spacings.
+constexpr double room = 0.9;
+
+Scene scene_of_grid(Scene scene) {
+  scene.spacing *= hybrid_settings(scene).ratio;
+  return scene;
+}
+
+Scene scene_of_particles(Scene scene) {
+  scene.numerics.scheme = SchemeKind::gsph;
+  return scene;
+}
+
+/// Of a particle, in cells.
+double reach_of(const Scene& scene) {
+  return kernel_support(scene.numerics.kernel) * scene.numerics.nodes_per_h / hybrid_settings(scene).ratio;
+}
+
+/// Calls see(x) at the middle of each of ratio^Dim parts of a cell.
+template <int Dim, class See>
+void for_sites(const Box<Dim>& box, std::size_t cell, int ratio, See&& see) {
+  for_points<Dim>(box.centre(box.cell(cell)), box.spacing, ratio, see);
+}
+
+}  // namespace
+
+template <int Dim>
+Hybrid<Dim>::Hybrid(const Scene& scene, const std::vector<Material>& materials)
+    : scene_(scene),
+      settings_(hybrid_settings(scene)),
+      grid_(scene_of_grid(scene), materials),
+      zone_(settings_, reach_of(scene)) {
+  if ((settings_.ratio & (settings_.ratio - 1)) != 0)
+    throw InputError(fmt::format("{}: hybrid.ratio: expected a power of two, got {}", scene.file, settings_.ratio));
+  clock = grid_.clock;
+  zone_.update(grid_);
+  lay_particles(materials);
+  initial = conserved();
+}
+
+/// Those of gsph, with what the grid says of led particles in between.
+template <int Dim>
+std::vector<Stage<Dim>> Hybrid<Dim>::stages(const std::vector<Material>& materials) const {
+  using enum Field;
+  std::vector<Stage<Dim>> list;
+  const auto add = [&](const char* name, std::vector<Field> reads, std::vector<Field> writes, auto work) {
+    list.push_back({{.run = [this, work](Sph<Dim>& sph) { (this->*work)(sph); }}, name, std::move(reads), std::move(writes)});
+  };
+  for (Stage<Dim>& stage : choose_stages<Dim>(scene_of_particles(scene_), materials)) {
+    const std::string name = stage.name;
+    list.push_back(std::move(stage));
+    if (name == "neighbours")
+      add("led motion", {position}, {velocity, specific_energy}, &Hybrid::lead_motion);
+    if (name == "equation of state")
+      add("led state", {position, mass, density}, {mass, density, pressure, sound_speed, smoothing_length},
+          &Hybrid::lead_state);
+    if (name == "pair rates") add("led rest", {position}, {acceleration, specific_energy_rate}, &Hybrid::lead_rest);
+  }
+  return list;
+}
+
+template <int Dim>
+std::vector<std::size_t> Hybrid<Dim>::cells_of(bool only_active) const {
+  std::vector<std::size_t> cells;
+  for (std::size_t i = 0; i < zone_.parts().size(); ++i)
+    if (only_active ? zone_[i] == Part::active : zone_.covered(i)) cells.push_back(i);
+  return cells;
+}
+
+/// The first particles: what the scene says of the part of a cell that each stands for.
+template <int Dim>
+void Hybrid<Dim>::lay_particles(const std::vector<Material>& materials) {
+  const auto start = charge_start(grid_.scene(), materials);
+  const MatterAt<Dim> matter(scene_, materials, scene_.spacing, start ? &*start : nullptr);
+  const double volume = grid_.box().cell_volume() / std::pow(settings_.ratio, Dim);
+  const int body = static_cast<int>(scene_.bodies.size()) - 1;
+  std::vector<Placement<Dim>> placements;
+  for (const std::size_t cell : cells_of(false))
+    for_sites(grid_.box(), cell, settings_.ratio, [&](const Vec<Dim>& x) {
+      placements.push_back({x, x, volume, scene_.spacing, grid_.state(cell).density, body, 0});
+    });
+  const Scene scene = scene_of_particles(scene_);
+  particles_ = assemble<Dim>(scene, {grid_.material()}, stages({grid_.material()}), placements, [&](Sph<Dim>& sph) {
+    sph.clock = clock;
+    Particles<Dim>& p = sph.particles;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      const auto u = *matter.mean(placements[i].x, scene_.spacing, cell_samples<Dim>);
+      double squares = 0;
+      for (int a = 0; a < Dim; ++a) {
+        const double v = p.column(Field::velocity, a)[i] = u[static_cast<std::size_t>(1 + a)] / u[0];
+        squares += v * v;
+      }
+      p.column(Field::density)[i] = u[0];
+      p.column(Field::mass)[i] = u[0] * volume;
+      p.column(Field::specific_energy)[i] = u[Dim + 1] / u[0] - 0.5 * squares;
+    }
+  });
+}
+
+template <int Dim>
+Part Hybrid<Dim>::part_of(std::size_t i) const {
+  return zone_[cell_of(grid_.box(), particles_->particles.vector(Field::position, i))];
+}
+
+template <int Dim>
+PointState<Dim> Hybrid<Dim>::led_state(std::size_t i) const {
+  const Vec<Dim> x = particles_->particles.vector(Field::position, i);
+  const PointState<Dim> a = before_->at(x), b = after_->at(x);
+  const double share = std::clamp((particles_->clock.time - began_) / span_, 0.0, 1.0);
+  return {.density = a.density + share * (b.density - a.density),
+          .velocity = a.velocity + share * (b.velocity - a.velocity),
+          .specific_energy = a.specific_energy + share * (b.specific_energy - a.specific_energy)};
+}
+
+template <int Dim>
+void Hybrid<Dim>::lead_motion(Sph<Dim>& sph) const {
+  if (!after_) return;
+  Particles<Dim>& p = sph.particles;
+  parallel_for(0, p.size(), [&](std::size_t i) {
+    if (part_of(i) == Part::active) return;
+    const PointState<Dim> s = led_state(i);
+    p.set_vector(Field::velocity, i, s.velocity);
+    p.column(Field::specific_energy)[i] = s.specific_energy;
+  });
+}
+
+/// Led particles have the density of the grid. Those with all their neighbours take the mass for that in the volume that
+/// these leave them, so that nothing changes when they are let go, however they lie: masses of particles are in no ledger.
+/// Sums at the rim are cut off: there it is the volume that follows from the mass.
+template <int Dim>
+void Hybrid<Dim>::lead_state(Sph<Dim>& sph) const {
+  if (!after_) return;
+  Particles<Dim>& p = sph.particles;
+  std::visit(
+      [&](const auto& eos) {
+        parallel_for(0, p.size(), [&](std::size_t i) {
+          const Part part = part_of(i);
+          if (part == Part::active) return;
+          const PointState<Dim> s = led_state(i);
+          const EosPoint point = eos.evaluate(s.density, s.specific_energy);
+          double &mass = p.column(Field::mass)[i], &density = p.column(Field::density)[i];
+          if (part == Part::led)
+            mass *= s.density / density;
+          else
+            p.column(Field::smoothing_length)[i] =
+                sph.scene.numerics.nodes_per_h * std::pow(mass / s.density, 1.0 / Dim);
+          density = s.density;
+          p.column(Field::pressure)[i] = point.pressure;
+          p.column(Field::sound_speed)[i] = sound_speed(point, s.density, eos.sound_speed_floor());
+        });
+      },
+      grid_.material().eos);
+  renew_lists(sph);
+}
+
+/// The integrator leaves led particles their velocities and energies.
+template <int Dim>
+void Hybrid<Dim>::lead_rest(Sph<Dim>& sph) const {
+  if (!after_) return;
+  Particles<Dim>& p = sph.particles;
+  parallel_for(0, p.size(), [&](std::size_t i) {
+    if (part_of(i) == Part::active) return;
+    for (int a = 0; a < Dim; ++a) p.column(Field::acceleration, a)[i] = p.previous(Field::acceleration, a)[i] = 0;
+    p.column(Field::specific_energy_rate)[i] = p.expected(Field::specific_energy_rate)[i] = 0;
+  });
+}
+
+template <int Dim>
+void Hybrid<Dim>::sort_into_cells() const {
+  const Particles<Dim>& p = particles_->particles;
+  const std::size_t cells = grid_.box().size();
+  std::vector<std::uint32_t> cell(p.size());
+  first_.assign(cells + 1, 0);
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    cell[i] = static_cast<std::uint32_t>(cell_of(grid_.box(), p.vector(Field::position, i)));
+    ++first_[cell[i] + 1];
+  }
+  std::partial_sum(first_.begin(), first_.end(), first_.begin());
+  in_cells_.resize(p.size());
+  std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+  for (std::size_t i = 0; i < p.size(); ++i) in_cells_[next[cell[i]]++] = static_cast<std::uint32_t>(i);
+}
+
+template <int Dim>
+void Hybrid<Dim>::remove_outside() {
+  Particles<Dim>& p = particles_->particles;
+  std::vector<std::uint32_t> order(p.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const auto outside = std::stable_partition(order.begin(), order.end(), [&](std::uint32_t i) {
+    return zone_.covered(cell_of(grid_.box(), p.vector(Field::position, i)));
+  });
+  if (outside == order.end()) return;
+  p.reorder(order);
+  p.resize(static_cast<std::size_t>(outside - order.begin()));
+}
+
+/// Particles where the zone has come to, and where gas has left the belt around it empty.
+template <int Dim>
+void Hybrid<Dim>::fill_holes(const std::vector<Part>& before) {
+  Particles<Dim>& p = particles_->particles;
+  const Box<Dim>& box = grid_.box();
+  sort_into_cells();
+  std::vector<Vec<Dim>> sites;
+  const auto is_free = [&](std::size_t cell, const Vec<Dim>& x) {
+    bool found = false;
+    for_cells_near<Dim>(box, box.cell(cell), 1, [&](std::size_t near, int) {
+      for (std::uint32_t k = first_[near]; k < first_[near + 1] && !found; ++k) {
+        const std::size_t i = in_cells_[k];
+        Vec<Dim> d = p.vector(Field::position, i) - x;
+        for (std::size_t a = 0; a < Dim; ++a)
+          if (box.lower[a] == BoundaryKind::periodic) {
+            const double length = box.cells[a] * box.spacing;
+            d[static_cast<int>(a)] -= length * std::round(d[static_cast<int>(a)] / length);
+          }
+        const double own = std::pow(p.column(Field::mass)[i] / p.column(Field::density)[i], 1.0 / Dim);
+        found = d.norm() < room * 0.5 * (own + scene_.spacing);
+      }
+    });
+    return !found;
+  };
+  for (const std::size_t cell : cells_of(false)) {
+    const bool fresh = before[cell] == Part::grid;
+    if (!fresh && zone_[cell] == Part::active) continue;
+    if (fresh && first_[cell] == first_[cell + 1]) {  // most of them
+      for_sites(box, cell, settings_.ratio, [&](const Vec<Dim>& x) {
+        if (is_free(cell, x)) sites.push_back(x);
+      });
+      continue;
+    }
+    for_sites(box, cell, settings_.ratio, [&](const Vec<Dim>& x) {
+      if (is_free(cell, x)) sites.push_back(x);
+    });
+  }
+  if (sites.empty()) return;
+  const CellLines<Dim> lines(grid_, cells_of(false));
+  const double volume = box.cell_volume() / std::pow(settings_.ratio, Dim);
+  const std::size_t n = p.size();
+  std::int32_t id = n == 0 ? 0 : std::ranges::max(p.label(Label::id));
+  p.resize(n + sites.size());
+  for (std::size_t k = 0; k < sites.size(); ++k) {
+    const std::size_t i = n + k;
+    const PointState<Dim> s = lines.at(sites[k]);
+    p.set_vector(Field::position, i, sites[k]);
+    p.set_vector(Field::velocity, i, s.velocity);
+    p.column(Field::density)[i] = s.density;
+    p.column(Field::mass)[i] = s.density * volume;
+    p.column(Field::specific_energy)[i] = s.specific_energy;
+    p.column(Field::smoothing_length)[i] = scene_.numerics.nodes_per_h * scene_.spacing;
+    p.label(Label::id)[i] = ++id;
+    p.label(Label::body)[i] = static_cast<std::int32_t>(scene_.bodies.size()) - 1;
+    p.label(Label::material)[i] = 0;
+  }
+}
+
+template <int Dim>
+void Hybrid<Dim>::hold_zone(const std::function<bool(const Vec<Dim>&)>& inside) {
+  std::vector<char> active(grid_.box().size());
+  for (std::size_t i = 0; i < active.size(); ++i) active[i] = inside(grid_.box().centre(grid_.box().cell(i)));
+  zone_.hold(std::move(active));
+}
+
+template <int Dim>
+void Hybrid<Dim>::move_zone() {
+  const Box<Dim> box = grid_.box();
+  grid_.make_room();
+  if (grid_.box().size() != box.size()) zone_.follow(box, grid_.box());
+  const std::vector<Part> before = zone_.parts();
+  zone_.update(grid_);
+  Particles<Dim>& p = particles_->particles;
+  const std::size_t n = p.size();
+  remove_outside();
+  const std::size_t left = p.size();
+  fill_holes(before);
+  if (left == n && p.size() == n) return;
+  p.set_material_ranges(ranges_of_materials(p.label(Label::material), particles_->materials.size()));
+  particles_->lists.invalidate();
+}
+
+template <int Dim>
+void Hybrid<Dim>::advance(double dt) {
+  timers.time("zone", [&] { move_zone(); });
+  const std::vector<std::size_t> covered = cells_of(false);
+  const bool alone = particles_->particles.size() == 0;
+  if (!alone) before_.emplace(grid_, covered);
+  grid_.advance(dt);
+  external = grid_.external;
+  if (!alone) {
+    after_.emplace(grid_, covered);
+    began_ = clock.time;
+    span_ = dt;
+    particles_->clock.time = clock.time;
+    for (double left = dt; left > 1e-12 * dt;) {
+      const double steps = std::max(1.0, std::ceil(left / particles_->vote().dt - 1e-9));
+      particles_->advance(left / steps);
+      particle_steps_ += static_cast<double>(particles_->particles.size());
+      left = steps == 1 ? 0 : clock.time + dt - particles_->clock.time;
+    }
+    particles_->check_health();
+    timers.time("transfer", [&] { follow_particles(); });
+  }
+  clock = {clock.time + dt, dt, clock.step + 1};
+}
+
+/// The active cells become what their particles say.
+template <int Dim>
+void Hybrid<Dim>::follow_particles() {
+  const std::vector<std::size_t> active = cells_of(true);
+  if (active.empty()) return;
+  std::vector<std::int32_t> place(grid_.box().size(), -1);
+  for (std::size_t k = 0; k < active.size(); ++k) place[active[k]] = static_cast<std::int32_t>(k);
+  const auto found = restrict_particles(particles_->particles, grid_.box(), place, active.size());
+  std::vector<std::array<double, Dim + 2>> wanted(active.size());
+  for (std::size_t k = 0; k < active.size(); ++k)
+    for (std::size_t c = 0; c < Dim + 2; ++c)
+      wanted[k][c] = found[k].volume > least_covered * grid_.box().cell_volume() ? found[k].sum[c] / found[k].volume
+                                                                               : grid_.cells()[c][active[k]];
+  if (settings_.transfer == Transfer::interpolate) return grid_.put(active, wanted);
+  const CellChanges<Dim> changes = correct_by_fluxes(grid_, active, place, wanted);
+  grid_.put(changes.cells, changes.values);
+}
+
+template <int Dim>
+void Hybrid<Dim>::persist(Archive& archive) {
+  std::int64_t steps = static_cast<std::int64_t>(particle_steps_);
+  archive.integer("particle_steps", steps);
+  particle_steps_ = static_cast<double>(steps);
+  std::vector<std::int32_t> parts;
+  for (const Part part : zone_.parts()) parts.push_back(static_cast<std::int32_t>(part));
+  parts.resize(archive.size(parts.size()));
+  archive.labels("zone", parts);
+  if (!archive.reads()) return;
+  zone_.parts().clear();
+  for (const std::int32_t part : parts) zone_.parts().push_back(static_cast<Part>(part));
+}
+
+template <int Dim>
+std::optional<double> Hybrid<Dim>::pressure_at(const Vec<Dim>& x) const {
+  const auto by_grid = grid_.pressure_at(x);
+  if (!by_grid) return by_grid;
+  const Box<Dim>& box = grid_.box();
+  const std::size_t cell = cell_of(box, x);
+  if (zone_[cell] != Part::active) return by_grid;
+  const Particles<Dim>& p = particles_->particles;
+  double sum = 0, weights = 0;
+  for_cells_near<Dim>(box, box.cell(cell), 1, [&](std::size_t near, int) {
+    for (std::uint32_t k = first_[near]; k < first_[near + 1]; ++k) {
+      const std::size_t i = in_cells_[k];
+      const double q = (p.vector(Field::position, i) - x).norm() / p.column(Field::smoothing_length)[i];
+      if (q >= 1) continue;
+      const double weight = (1 - q) * (1 - q) * (1 + 2 * q) * p.column(Field::mass)[i] / p.column(Field::density)[i];
+      sum += weight * p.column(Field::pressure)[i];
+      weights += weight;
+    }
+  });
+  return weights > 0 ? std::optional(sum / weights) : by_grid;
+}
+
+template <int Dim>
+std::optional<BlastFront> Hybrid<Dim>::blast() const {
+  if (!scene_.charge || !scene_.gas) return std::nullopt;
+  sort_into_cells();
+  const Box<Dim>& box = grid_.box();
+  double farthest = 0;
+  for (const int n : box.cells) farthest += n * n * box.spacing * box.spacing;
+  auto blast = find_blast<Dim>(first_components<Dim>(scene_.charge->center), scene_.spacing, std::sqrt(farthest),
+                               grid_.ambient().pressure, [&](const Vec<Dim>& x) { return pressure_at(x); });
+  if (!blast) return blast;
+  blast->peak_density = *std::ranges::max_element(grid_.cells()[0]);
+  for (std::size_t i = 0; i < particles_->particles.size(); ++i)
+    if (part_of(i) == Part::active) blast->peak_density = std::max(blast->peak_density, particles_->particles.column(Field::density)[i]);
+  return blast;
+}
+
+template <int Dim>
+Quantities Hybrid<Dim>::quantities() const {
+  Quantities list;
+  for (const Quantity& q : grid_.quantities())
+    if (!q.name.starts_with("shock")) list.push_back(q);
+  list.push_back({"particles", "1", static_cast<std::int64_t>(particles_->elements()), "in the zone and in the belt around it"});
+  list.push_back({"zone", "1", static_cast<std::int64_t>(zone_.count(Part::active)), "cells that follow their particles"});
+  if (!scene_.charge || !scene_.gas) return list;
+  const BlastFront now = blast().value_or(BlastFront{});
+  list.push_back({"shock radius", "m", now.radius, "mean over directions; 0 before there is a shock", true});
+  list.push_back({"shock radius spread", "m", now.spread, "root mean square over directions"});
+  list.push_back({"shock pressure", "Pa", now.peak_pressure, "largest behind the shock, mean over directions", true});
+  return list;
+}
+
+template <int Dim>
+std::string Hybrid<Dim>::outline() const {
+  std::string text = grid_.outline();
+  text += fmt::format("hybrid\n  particles          {} of {} at the start, {} to a cell\n", particles_->elements(),
+                      format_quantity(scene_.spacing, "m"), std::pow(settings_.ratio, Dim));
+  return text;
+}
+
+template <int Dim>
+std::vector<Channel> Hybrid<Dim>::channels(const Asked& asked) const {
+  std::vector<Channel> list = grid_.channels(asked);
+  for (Channel& channel : list) {
+    shown_zone_.assign(zone_.parts().size(), 0);
+    for (std::size_t i = 0; i < shown_zone_.size(); ++i) shown_zone_[i] = static_cast<double>(zone_[i]);
+    channel.fields.push_back({"zone", "1", {shown_zone_}});
+  }
+  return list;
+}
+
+template class Hybrid<2>;
+template class Hybrid<3>;
+
+}  // namespace ejecta

@@ -1,0 +1,82 @@
+#pragma once
+/// A grid everywhere, and particles where fronts are.
+///
+/// The grid owns all mass, momentum and energy. Where a front is, its cells are filled with particles twice as fine or
+/// more, which are carried on by the Riemann fluxes of gsph in steps of their own within each step of the grid; around
+/// them a belt of particles moves with the gas of the grid. Afterwards the cells that particles fill are led to what
+/// those say, by fluxes that take from one cell what they give to the next (flux_correction.hpp): whatever the particles
+/// do, nothing is lost. Particles come into being from what the grid holds, and vanish without leaving a trace in the
+/// ledger.
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "hybrid/cell_lines.hpp"
+#include "hybrid/zone.hpp"
+#include "sph/sph.hpp"
+
+namespace ejecta {
+
+template <int Dim>
+class Hybrid final : public Package {
+ public:
+  /// Throws InputError if the scene asks for what a grid or Riemann particles cannot do.
+  Hybrid(const Scene& scene, const std::vector<Material>& materials);
+
+  std::string_view name() const override { return "hybrid"; }
+  Vote vote() override { return grid_.vote(); }
+  void advance(double dt) override;
+  void check_health() const override {}
+  Totals conserved() const override { return grid_.conserved(); }
+  Kept kept() const override { return grid_.kept(); }
+  bool is_loaded() const override { return true; }
+  void persist(Archive& archive) override;
+  std::vector<Package*> parts() const override { return {&grid_, particles_.get()}; }
+  Quantities quantities() const override;
+  std::string outline() const override;
+  std::vector<Remark> remarks() const override { return grid_.remarks(); }
+  std::vector<std::string> channel_names() const override { return grid_.channel_names(); }
+  std::vector<Channel> channels(const Asked& asked) const override;
+  std::string describe(std::size_t cell) const override { return grid_.describe(cell); }
+  std::optional<BlastFront> blast() const override;
+  std::size_t elements() const override { return grid_.elements() + particles_->elements(); }
+  double element_steps() const override { return grid_.element_steps() + particle_steps_; }
+  std::size_t bytes() const override { return grid_.bytes() + particles_->bytes(); }
+
+  const Grid<Dim>& grid() const { return grid_; }
+  const Sph<Dim>& particles() const { return *particles_; }
+  const Zone<Dim>& zone() const { return zone_; }
+  /// From now on particles move freely where inside(centre of a cell) says so, and nowhere else: for tests.
+  void hold_zone(const std::function<bool(const Vec<Dim>&)>& inside);
+  /// Pressure at a point [Pa], a mean over the particles near it where they move freely; nothing beyond the box.
+  std::optional<double> pressure_at(const Vec<Dim>& x) const;
+
+ private:
+  std::vector<Stage<Dim>> stages(const std::vector<Material>& materials) const;
+  void lay_particles(const std::vector<Material>& materials);
+  Part part_of(std::size_t particle) const;
+  /// What the grid says at a particle now.
+  PointState<Dim> led_state(std::size_t particle) const;
+  void lead_motion(Sph<Dim>& sph) const;
+  void lead_state(Sph<Dim>& sph) const;
+  void lead_rest(Sph<Dim>& sph) const;
+  std::vector<std::size_t> cells_of(bool only_active) const;
+  void sort_into_cells() const;
+  void move_zone();
+  void remove_outside();
+  void fill_holes(const std::vector<Part>& before);
+  void follow_particles();
+
+  Scene scene_;
+  HybridSettings settings_;
+  mutable Grid<Dim> grid_;
+  Zone<Dim> zone_;
+  std::unique_ptr<Sph<Dim>> particles_;
+  std::optional<CellLines<Dim>> before_, after_;  ///< the grid at the ends of the present step
+  double began_ = 0, span_ = 0;                   ///< of that step [s]
+  double particle_steps_ = 0;                     ///< particles that have been advanced, all steps added
+  mutable std::vector<std::uint32_t> first_, in_cells_;  ///< particles by cell: those of cell c from first_[c] on
+  mutable std::vector<double> shown_zone_;
+};
+
+}  // namespace ejecta
