@@ -109,7 +109,7 @@ void PairPassOf<T, Dim, Kind, K, Flux>::cluster_fluxes(const RateColumns<Dim>& c
     columns.specific_energy_rate(0, i) = specific_volume * per_unit * heat.lane(k);
     if (moves) {
       constexpr double norm = K::template norm<Dim>;
-      const double per_h = per_unit * std::pow(support.norm(k) / norm, 1.0 / Dim);
+      const double share = support.norm(k) / norm, per_h = per_unit * (Dim == 2 ? std::sqrt(share) : std::cbrt(share));
       const double sound = static_cast<double>(records_[i * R::size + R::sound_speed]);
       columns.compression_rate(0, i) =
           sound * per_h * pair_detail::squeeze(norm * filled.lane(k) / settings_.godunov->lattice_density) -
