@@ -101,6 +101,9 @@ Scene interpret(Document document, const std::vector<std::string>& overrides, co
   Describer description(document);
   describe(description, scene, context.sections);
   read_settings(description, document, problems);
+  // Riemann problems are of gases, whose volumes are sums over their neighbours unless asked otherwise.
+  if (scene.numerics.godunov() && !document.items.contains("numerics.density"))
+    scene.numerics.density = DensityMethod::summation;
   if (!context.fields.empty()) check_ranges(document, context.fields, problems);
   find_pipelines(scene, document, problems);
   add_blast(scene, document, problems);

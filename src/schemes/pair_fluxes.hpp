@@ -95,7 +95,9 @@ void PairPassOf<T, Dim, Kind, K, Flux>::cluster_fluxes(const RateColumns<Dim>& c
         heat.add(-j[R::volume], V(passes.pressure * sweeps));
         if (moves) {
           growth.add(j[R::volume] * j[R::expansion], sweeps);
-          filled.add(j[R::volume] * j[R::expansion], support.partner_value(p.dx, p.r2, j));
+          // Not the particle itself, which is a partner or not as others of its cluster are near: it is added below.
+          const V others = p.r2 > T(0) ? support.partner_value(p.dx, p.r2, j) : V{};
+          filled.add(j[R::volume] * j[R::expansion], others);
         }
         fastest = simd::min(fastest, V(p.pair.moment > 0 ? passes.approach : V{}));
       });
@@ -109,10 +111,12 @@ void PairPassOf<T, Dim, Kind, K, Flux>::cluster_fluxes(const RateColumns<Dim>& c
     columns.specific_energy_rate(0, i) = specific_volume * per_unit * heat.lane(k);
     if (moves) {
       constexpr double norm = K::template norm<Dim>;
-      const double share = support.norm(k) / norm, per_h = per_unit * (Dim == 2 ? std::sqrt(share) : std::cbrt(share));
-      const double sound = static_cast<double>(records_[i * R::size + R::sound_speed]);
+      const T* own = records_.data() + i * R::size;
+      const double per_ball = support.norm(k) / norm;  // 1/h^Dim
+      const double per_h = per_unit * (Dim == 2 ? std::sqrt(per_ball) : std::cbrt(per_ball));
+      const double all = filled.lane(k) + own[R::volume] * own[R::expansion] * per_ball * K::value(0.0);
       columns.compression_rate(0, i) =
-          sound * per_h * pair_detail::squeeze(norm * filled.lane(k) / settings_.godunov->lattice_density) -
+          own[R::sound_speed] * per_h * pair_detail::squeeze(norm * all / settings_.godunov->lattice_density) -
           2 * per_unit * growth.lane(k);
     }
     columns.zeroth_moment(0, i) = Support::moment_scale * moment[k];

@@ -28,13 +28,13 @@ TEST(ReadScene, ConvertsAndKeepsDefaults) {
   EXPECT_EQ(scene.numerics.nodes_per_h, 1.3);
 }
 
-TEST(ReadScene, DensitiesGoByContinuityUnlessAskedOtherwise) {
+TEST(ReadScene, RiemannProblemsTakeSummedDensitiesUnlessAskedOtherwise) {
   const auto density = [](const std::string& numerics) {
     return parse_scene(valid_scene + "[numerics]\n" + numerics, "s.toml").numerics.density;
   };
   EXPECT_EQ(density("scheme = \"sph\"\n"), DensityMethod::continuity);
-  EXPECT_EQ(density("scheme = \"gsph\"\n"), DensityMethod::continuity);
-  EXPECT_EQ(density("scheme = \"gsph\"\ndensity = \"summation\"\n"), DensityMethod::summation);
+  EXPECT_EQ(density("scheme = \"gsph\"\n"), DensityMethod::summation);
+  EXPECT_EQ(density("scheme = \"gsph\"\ndensity = \"continuity\"\n"), DensityMethod::continuity);
 }
 
 TEST(ReadScene, ReadsEveryKindOfValue) {
