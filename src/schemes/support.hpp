@@ -79,7 +79,8 @@ struct IsotropicSupport {
   /// W(x_ij, h_j) of the partner, over the kernel's norm [1/unit^Dim].
   V partner_value(const V (&)[Dim], V r2, const S* j) const {
     const S n = S(K::support) * j[R::reach_reciprocal];
-    return (Dim == 2 ? n * n : n * n * n) * K::value(V(n * (r2 * simd::reciprocal_sqrt(V(r2 + support_detail::guard<S>)))));
+    const V r = r2 * simd::reciprocal_sqrt(V(r2 + support_detail::guard<S>));
+    return (Dim == 2 ? n * n : n * n * n) * K::value(V(n * r));
   }
   /// Norm of the kernel of lane k [1/unit^Dim].
   double norm(int k) const {
