@@ -1,9 +1,25 @@
 #pragma once
 /// The loops over the pairs of a flux that is whole (flux.hpp): slopes to reconstruct from, and what passes.
+#include <algorithm>
+#include <cmath>
+
 #include "schemes/flux.hpp"
 #include "schemes/pair_pass_impl.hpp"
 
 namespace ejecta {
+
+namespace pair_detail {
+
+/// Rate at which a particle among others that fill `filled` of the space around it is squeezed [c/h], for volumes that
+/// are moved by what faces sweep: those lose or gain a few per cent in a shock, and nothing else would tell. It leaves
+/// a contact alone, unlike a sum over neighbours, as every volume spreads with its own kernel. Of Sod's tube the error
+/// of the density has its least from 0.3 to 1.
+inline double squeeze(double filled) {
+  constexpr double rate = 0.3, most = 2;  // few neighbours: as at a free surface, no worse
+  return rate * std::log(std::clamp(filled, 1 / most, most));
+}
+
+}  // namespace pair_detail
 
 template <class T, int Dim, PassKind Kind, class K, class Flux>
 void PairPassOf<T, Dim, Kind, K, Flux>::cluster_slopes(const RateColumns<Dim>& columns, const Cluster& c,
@@ -63,7 +79,8 @@ void PairPassOf<T, Dim, Kind, K, Flux>::cluster_fluxes(const RateColumns<Dim>& c
   V v[Dim];
   for (int a = 0; a < Dim; ++a) v[a] = load(R::v + a);
   const FluxLanes flux(load, settings_);
-  simd::WideSum<T> acceleration[Dim], heat;
+  const bool moves = columns.compression_rate.count != 0;
+  simd::WideSum<T> acceleration[Dim], heat, growth, filled;
   V moment{}, fastest{};
   for_partners<false>(
       members, support, candidates, R::size, [&](const auto& pair) { moment += pair.moment; },
@@ -73,8 +90,15 @@ void PairPassOf<T, Dim, Kind, K, Flux>::cluster_fluxes(const RateColumns<Dim>& c
         for (int a = 0; a < Dim; ++a) dv[a] = j[R::v + a] - v[a];
         const WholeFlux<V, Dim> passes = flux.across(p, pair_detail::dot(dv, p.dx));
         for (int a = 0; a < Dim; ++a) acceleration[a].add(-j[R::volume], V(passes.pressure * passes.face[a]));
-        // F.(v* - v_i): what i loses and j gains, in all, is the work of F.
-        heat.add(-j[R::volume], V(passes.pressure * (T(0.5) * pair_detail::dot(dv, passes.face) + passes.drift)));
+        // F.(v* - v_i): what i loses and j gains, in all, is the work of F, and what its face sweeps is volume.
+        const V sweeps = T(0.5) * pair_detail::dot(dv, passes.face) + passes.drift;
+        heat.add(-j[R::volume], V(passes.pressure * sweeps));
+        if (moves) {
+          growth.add(j[R::volume] * j[R::expansion], sweeps);
+          // Not the particle itself, which is a partner or not as others of its cluster are near: it is added below.
+          const V others = p.r2 > T(0) ? support.partner_value(p.dx, p.r2, j) : V{};
+          filled.add(j[R::volume] * j[R::expansion], others);
+        }
         fastest = simd::min(fastest, V(p.pair.moment > 0 ? passes.approach : V{}));
       });
   const double per_unit = 1 / settings_.length_unit, unit_volume = std::pow(settings_.length_unit, Dim);
@@ -85,6 +109,16 @@ void PairPassOf<T, Dim, Kind, K, Flux>::cluster_fluxes(const RateColumns<Dim>& c
     for (int a = 0; a < Dim; ++a)
       columns.acceleration(static_cast<std::size_t>(a), i) = specific_volume * per_unit * acceleration[a].lane(k);
     columns.specific_energy_rate(0, i) = specific_volume * per_unit * heat.lane(k);
+    if (moves) {
+      constexpr double norm = K::template norm<Dim>;
+      const T* own = records_.data() + i * R::size;
+      const double per_ball = support.norm(k) / norm;  // 1/h^Dim
+      const double per_h = per_unit * (Dim == 2 ? std::sqrt(per_ball) : std::cbrt(per_ball));
+      const double all = filled.lane(k) + own[R::volume] * own[R::expansion] * per_ball * K::value(0.0);
+      columns.compression_rate(0, i) =
+          own[R::sound_speed] * per_h * pair_detail::squeeze(norm * all / settings_.godunov->lattice_density) -
+          2 * per_unit * growth.lane(k);
+    }
     columns.zeroth_moment(0, i) = Support::moment_scale * moment[k];
     columns.largest_mu(0, i) = -fastest[k];
   }

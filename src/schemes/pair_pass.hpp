@@ -90,6 +90,10 @@ class PairPass {
   /// with weights f_ij = 1 - max(n.D_i n, n.D_j n), n the direction of the pair (D = 0 where a material is not cut): an
   /// opening crack does not strain the matter beside it.
   ///
+  /// With Godunov fluxes forces and heat are those of riemann_flux.hpp, and where there is a compression_rate it is
+  ///   (1/rho) drho/dt = -sum_j 2 V_j a_ij.(v* - v_i) + 0.3 c/h ln(sum_j V_j W(r_ij, h_j)/(that of the lattice)):
+  /// what the faces sweep, and what keeps the volumes filling space.
+  ///
   /// Reads what PairRecord reads; writes acceleration, specific_energy_rate, zeroth_moment, largest_mu,
   /// velocity_gradient, uncut_gradient, stretch (of bonds: the largest |x_ij|/|X_ij|, at least 1).
   virtual void rates(Particles<Dim>& particles, const PairLists<Dim>& lists) = 0;

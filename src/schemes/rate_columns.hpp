@@ -20,11 +20,12 @@ struct RateColumns {
         pressure_gradient(p, Field::pressure_gradient),
         face_correction(p, Field::face_correction),
         stretch(p, Field::stretch),
+        compression_rate(p, Field::compression_rate),
         density(p, Field::density) {}
 
   Columns<Dim, const double> mass, velocity;
   Columns<Dim, double> acceleration, specific_energy_rate, zeroth_moment, largest_mu, velocity_gradient, uncut_gradient,
-      density_gradient, pressure_gradient, face_correction, stretch, density;
+      density_gradient, pressure_gradient, face_correction, stretch, compression_rate, density;
 };
 
 }  // namespace ejecta

@@ -133,9 +133,11 @@ struct RiemannFlux {
       const V per_r = simd::reciprocal_sqrt(V(p.r2 + support_detail::guard<T>)), apart = along * per_r;
       const States states = settings_.limiter == PairLimiter::none ? as_they_are(theirs, j, apart)
                                                                    : in_the_middle(p, theirs, j, per_r, apart);
-      const StarState<V> star = settings_.riemann == PairRiemann::exact
-                                    ? exact_star(states.ours, states.theirs, states.apart)
-                                    : approximate_star(states.ours, states.theirs, states.apart);
+      StarState<V> star;
+      if (settings_.riemann == PairRiemann::exact) [[unlikely]]
+        star = exact_star(states.ours, states.theirs, states.apart);
+      else
+        star = approximate_star(states.ours, states.theirs, states.apart);
       flux.pressure = T(2) * (expansion_ * j[R::expansion]) * star.pressure;
       // u* beyond the mean of both velocities along the pair.
       const V drift = T(0.5) * ((star.faster_right - star.faster_left) + states.faster);

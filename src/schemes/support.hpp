@@ -76,6 +76,12 @@ struct IsotropicSupport {
     w = K::value(q);
     moment = -q * K::slope_over_q(q, V(simd::reciprocal(V(q + support_detail::guard<S>))));
   }
+  /// W(x_ij, h_j) of the partner, over the kernel's norm [1/unit^Dim].
+  V partner_value(const V (&)[Dim], V r2, const S* j) const {
+    const S n = S(K::support) * j[R::reach_reciprocal];
+    const V r = r2 * simd::reciprocal_sqrt(V(r2 + support_detail::guard<S>));
+    return (Dim == 2 ? n * n : n * n * n) * K::value(V(n * r));
+  }
   /// Norm of the kernel of lane k [1/unit^Dim].
   double norm(int k) const {
     const double n = K::support * static_cast<double>(reach_reciprocal[k]);
@@ -155,6 +161,12 @@ struct EllipsoidalSupport {
     const V reciprocal = simd::reciprocal_sqrt(V(eta2 + support_detail::guard<S>)), q = eta2 * reciprocal;
     w = K::value(q);
     moment = -q * K::slope_over_q(q, reciprocal);
+  }
+  V partner_value(const V (&dx)[Dim], V, const S* j) const {
+    V image[Dim];
+    const V eta2 = quadratic_form<Dim>(j + R::metric, dx, image);
+    constexpr S per_norm = static_cast<S>(1 / K::template norm<Dim>);
+    return per_norm * j[R::slope_norm] * K::value(V(eta2 * simd::reciprocal_sqrt(V(eta2 + support_detail::guard<S>))));
   }
   double norm(int k) const { return static_cast<double>(slope_norm[k]); }
 };

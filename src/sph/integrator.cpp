@@ -31,7 +31,7 @@ void for_blocks(std::size_t n, Body&& body) {
 }  // namespace
 
 template <int Dim>
-void predict(Particles<Dim>& particles, double dt, double previous_dt) {
+void predict(Particles<Dim>& particles, double dt, double previous_dt, bool damped_density) {
   auto energy = particles.column(Field::specific_energy);
   const double ahead = previous_dt > 0 ? std::min(dt / previous_dt, 2.0) : 0;
   for_blocks(particles.size(), [&](std::size_t begin, std::size_t end) {
@@ -47,7 +47,7 @@ void predict(Particles<Dim>& particles, double dt, double previous_dt) {
       }
     }
     // Calls advance(i, change) with the change of particle i in the step.
-    auto extrapolate = [&](Field rate, int k, auto&& advance) {
+    auto extrapolate = [&](Field rate, int k, double ahead, auto&& advance) {
       const auto now = particles.column(rate, k), before = particles.previous(rate, k);
       auto then = particles.expected(rate, k);
       for (std::size_t i = begin; i < end; ++i) {
@@ -57,11 +57,11 @@ void predict(Particles<Dim>& particles, double dt, double previous_dt) {
     };
     for_pair_columns(particles, [&](Field state, Field rate, int k) {
       auto y = particles.column(state, k);
-      extrapolate(rate, k, [&](std::size_t i, double change) { y[i] += change; });
+      extrapolate(rate, k, ahead, [&](std::size_t i, double change) { y[i] += change; });
     });
     if (!particles.has(Field::compression_rate)) return;
     auto density = particles.column(Field::density);
-    extrapolate(Field::compression_rate, 0, [&](std::size_t i, double change) { density[i] *= growth(change); });
+    extrapolate(Field::compression_rate, 0, damped_density ? 0 : ahead, [&](std::size_t i, double change) { density[i] *= growth(change); });
   });
   particles.swap_rates();
 }
@@ -91,8 +91,8 @@ void correct(Particles<Dim>& particles, double dt) {
   });
 }
 
-template void predict<2>(Particles<2>&, double, double);
-template void predict<3>(Particles<3>&, double, double);
+template void predict<2>(Particles<2>&, double, double, bool);
+template void predict<3>(Particles<3>&, double, double, bool);
 template void correct<2>(Particles<2>&, double);
 template void correct<3>(Particles<3>&, double);
 

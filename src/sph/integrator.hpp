@@ -7,9 +7,11 @@ namespace ejecta {
 /// Moves every state to the end of a step dt [s], and makes the rates at its start the previous ones:
 ///   x += dt v + dt^2/2 a,   v += dt a,   y += dt/2 (y'_0 + y'_e),   y'_e = y'_0 + min(2, dt/dt_p) (y'_0 - y'_p).
 /// Energy, stress and the logarithm of density (y) go by the mean of the rate and of what it is expected to be at the
-/// end if it goes on changing as it did in the step before, of length dt_p = previous_dt (0 at the start).
+/// end if it goes on changing as it did in the step before, of length dt_p = previous_dt (0 at the start). With
+/// `damped_density` y'_e = y'_0 of the density: Riemann problems level pressures by moving volumes, and what falls by a
+/// share z a step is stable up to z = 1 so, and only up to 1/2 as above.
 template <int Dim>
-void predict(Particles<Dim>& particles, double dt, double previous_dt);
+void predict(Particles<Dim>& particles, double dt, double previous_dt, bool damped_density = false);
 
 /// Replaces, in what was predicted, the rates by the mean of those at both ends: v += dt/2 (a_1 - a_0) and
 /// y += dt/2 (y'_1 - y'_e). Together with predict() this is second order with one evaluation of the rates a step; for x

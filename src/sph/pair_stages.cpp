@@ -96,7 +96,8 @@ void pair_rates(Sph<Dim>& sph) {
 template <int Dim>
 void strain_rates(Sph<Dim>& sph) {
   Particles<Dim>& p = sph.particles;
-  const bool continuity = p.has(Field::compression_rate), variable_shear = p.has(Field::shear_modulus);
+  const bool continuity = p.has(Field::compression_rate), variable_shear = p.has(Field::shear_modulus),
+             swept = sph.scene.numerics.godunov();  // by faces: the pair rates know
   const double share = density_share(sph.scene, Dim);
   for (std::size_t m = 0; m < sph.materials.size(); ++m) {
     const Material& material = sph.materials[m];
@@ -105,7 +106,7 @@ void strain_rates(Sph<Dim>& sph) {
       const Mat<Dim> L = p.tensor(Field::velocity_gradient, i);
       const double compression = -L.trace();  // (1/rho) drho/dt
       if (continuity) {
-        p.column(Field::compression_rate)[i] = compression;
+        if (!swept) p.column(Field::compression_rate)[i] = compression;
         hold_density(sph, material, share, i);
       }
       if (!material.solid()) return;

@@ -30,7 +30,7 @@ Vote Sph<Dim>::vote() {
 
 template <int Dim>
 void Sph<Dim>::advance(double dt) {
-  timers.time("integration", [&] { predict(particles, dt, clock.dt); });
+  timers.time("integration", [&] { predict(particles, dt, clock.dt, scene.numerics.godunov()); });
   clock.dt = dt;
   clock.time += dt;
   ++clock.step;

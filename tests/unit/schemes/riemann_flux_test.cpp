@@ -216,9 +216,10 @@ TEST(RiemannFlux, TensorsDoTheSame) {
 }
 
 /// A periodic square lattice of 16 x 16 particles with 1.3 in h.
-Particles<2> lattice(Boundary& boundary) {
+Particles<2> lattice(Boundary& boundary, std::vector<Field> more = {}) {
   constexpr int rows = 16;
-  auto p = random_gas<2>(rows * rows, 8);
+  more.insert(more.end(), slopes.begin(), slopes.end());
+  auto p = random_gas<2>(rows * rows, 8, more);
   for (int i = 0; i < rows; ++i)
     for (int j = 0; j < rows; ++j) {
       const auto k = static_cast<std::size_t>(rows * i + j);
@@ -246,6 +247,44 @@ TEST(RiemannFlux, AUniformStateStaysAsItIs) {
       EXPECT_LT(std::abs(p.column(Field::specific_energy_rate)[i]), 1e-10 / spacing);
     }
   });
+}
+
+/// Of gas that fills space, what its faces sweep is its change of volume: of a uniform strain of the velocity -tr A,
+/// and at a uniform pressure the work on it is the heat, P/rho times that.
+TEST(RiemannFlux, VolumesGoByWhatTheFacesSweep) {
+  Boundary boundary;
+  auto p = lattice(boundary, {Field::compression_rate});
+  auto settings = godunov(PairRiemann::exact, PairLimiter::monotonised_central, PairFaces::renormalised);
+  settings.godunov->lattice_density = lattice_sums(settings.kernel, 2, 1.3).density;
+  Mat<2> A;
+  A << -30, 12, 5, 80;
+  for (std::size_t i = 0; i < p.size(); ++i) p.set_vector(Field::velocity, i, A * p.vector(Field::position, i));
+  run(p, settings, boundary);
+  int inside = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const Vec<2> x = p.vector(Field::position, i) / spacing;
+    if (x.minCoeff() < 6 || x.maxCoeff() > 9) continue;  // the velocity jumps where the lattice ends
+    ++inside;
+    EXPECT_NEAR(p.column(Field::compression_rate)[i], -A.trace(), 1e-9 * A.norm());
+    EXPECT_NEAR(p.column(Field::specific_energy_rate)[i], -A.trace(), 1e-9 * A.norm());
+  }
+  EXPECT_EQ(inside, 16);
+}
+
+/// Whatever volumes have gained or lost is made good at 0.3 sound crossings of h, and a contact stays as it is.
+TEST(RiemannFlux, VolumesAreHeldToFillSpace) {
+  Boundary boundary;
+  auto settings = godunov({}, {}, {});
+  settings.godunov->lattice_density = lattice_sums(settings.kernel, 2, 1.3).density;
+  for (const double too_large : {1.0, 1.05, 0.9}) {
+    auto p = lattice(boundary, {Field::compression_rate});
+    for (std::size_t i = 0; i < p.size(); ++i) p.column(Field::density)[i] /= too_large;
+    run(p, settings, boundary);
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      const double crossing = p.column(Field::sound_speed)[i] / p.column(Field::smoothing_length)[i];
+      ASSERT_NEAR(p.column(Field::compression_rate)[i], 0.3 * crossing * std::log(too_large), 1e-10 * crossing);
+    }
+  }
 }
 
 TEST(RiemannFlux, AJumpOfTheDensityBetweenLikeVolumesStaysOne) {
