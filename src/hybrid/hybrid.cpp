@@ -11,6 +11,7 @@
 #include "hybrid/restriction.hpp"
 #include "material/matter_at.hpp"
 #include "model/find_blast.hpp"
+#include "scene/names.hpp"
 #include "scene/shape_geometry.hpp"
 #include "scene/units.hpp"
 #include "schemes/kernels.hpp"
@@ -58,6 +59,9 @@ Hybrid<Dim>::Hybrid(const Scene& scene, const std::vector<Material>& materials)
   if ((settings_.ratio & (settings_.ratio - 1)) != 0)
     throw InputError(fmt::format("{}: hybrid.ratio: expected a power of two, got {}", scene.file, settings_.ratio));
   clock = grid_.clock;
+  if (scene.numerics.density != DensityMethod::summation)
+    throw InputError(fmt::format("{}: numerics.density: expected summation with numerics.scheme = \"hybrid\", got {}",
+                                 scene.file, name_of(scene.numerics.density)));
   zone_.update(grid_);
   lay_particles(materials);
   initial = conserved();
@@ -191,7 +195,7 @@ void Hybrid<Dim>::lead_rest(Sph<Dim>& sph) const {
 }
 
 template <int Dim>
-void Hybrid<Dim>::sort_into_cells() const {
+void Hybrid<Dim>::look() const {
   const Particles<Dim>& p = particles_->particles;
   const std::size_t cells = grid_.box().size();
   std::vector<std::uint32_t> cell(p.size());
@@ -224,7 +228,8 @@ template <int Dim>
 void Hybrid<Dim>::fill_holes(const std::vector<Part>& before) {
   Particles<Dim>& p = particles_->particles;
   const Box<Dim>& box = grid_.box();
-  sort_into_cells();
+  look();
+  const double all = std::pow(settings_.ratio, Dim);  // particles of a cell
   std::vector<Vec<Dim>> sites;
   const auto is_free = [&](std::size_t cell, const Vec<Dim>& x) {
     bool found = false;
@@ -246,19 +251,14 @@ void Hybrid<Dim>::fill_holes(const std::vector<Part>& before) {
   for (const std::size_t cell : cells_of(false)) {
     const bool fresh = before[cell] == Part::grid;
     if (!fresh && zone_[cell] == Part::active) continue;
-    if (fresh && first_[cell] == first_[cell + 1]) {  // most of them
-      for_sites(box, cell, settings_.ratio, [&](const Vec<Dim>& x) {
-        if (is_free(cell, x)) sites.push_back(x);
-      });
-      continue;
-    }
+    if (!fresh && first_[cell + 1] - first_[cell] >= static_cast<std::uint32_t>(all)) continue;
     for_sites(box, cell, settings_.ratio, [&](const Vec<Dim>& x) {
       if (is_free(cell, x)) sites.push_back(x);
     });
   }
   if (sites.empty()) return;
   const CellLines<Dim> lines(grid_, cells_of(false));
-  const double volume = box.cell_volume() / std::pow(settings_.ratio, Dim);
+  const double volume = box.cell_volume() / all;
   const std::size_t n = p.size();
   std::int32_t id = n == 0 ? 0 : std::ranges::max(p.label(Label::id));
   p.resize(n + sites.size());
@@ -381,9 +381,31 @@ std::optional<double> Hybrid<Dim>::pressure_at(const Vec<Dim>& x) const {
 }
 
 template <int Dim>
+std::optional<CellState<Dim>> Hybrid<Dim>::at(const Vec<Dim>& x) const {
+  auto state = grid_.at(x);
+  if (!state) return state;
+  const Box<Dim>& box = grid_.box();
+  const std::size_t cell = cell_of(box, x);
+  if (zone_[cell] != Part::active) return state;
+  const Particles<Dim>& p = particles_->particles;
+  double nearest = std::numeric_limits<double>::infinity();
+  for_cells_near<Dim>(box, box.cell(cell), 1, [&](std::size_t near, int) {
+    for (std::uint32_t k = first_[near]; k < first_[near + 1]; ++k) {
+      const std::size_t i = in_cells_[k];
+      const double squares = (p.vector(Field::position, i) - x).squaredNorm();
+      if (squares >= nearest) continue;
+      nearest = squares;
+      state = {p.column(Field::density)[i], p.column(Field::pressure)[i], p.column(Field::sound_speed)[i],
+               p.column(Field::specific_energy)[i], p.vector(Field::velocity, i)};
+    }
+  });
+  return state;
+}
+
+template <int Dim>
 std::optional<BlastFront> Hybrid<Dim>::blast() const {
   if (!scene_.charge || !scene_.gas) return std::nullopt;
-  sort_into_cells();
+  look();
   const Box<Dim>& box = grid_.box();
   double farthest = 0;
   for (const int n : box.cells) farthest += n * n * box.spacing * box.spacing;

@@ -48,8 +48,14 @@ class Hybrid final : public Package {
   const Zone<Dim>& zone() const { return zone_; }
   /// From now on particles move freely where inside(centre of a cell) says so, and nowhere else: for tests.
   void hold_zone(const std::function<bool(const Vec<Dim>&)>& inside);
-  /// Pressure at a point [Pa], a mean over the particles near it where they move freely; nothing beyond the box.
+  /// Pressure at a point [Pa], a mean over the particles near it where they move freely; nothing beyond the box. Of the
+  /// state at the last call of look().
   std::optional<double> pressure_at(const Vec<Dim>& x) const;
+  /// State at a point: that of the nearest particle where they move freely, else that of the grid; nothing beyond the box.
+  /// Of the state at the last call of look().
+  std::optional<CellState<Dim>> at(const Vec<Dim>& x) const;
+  /// Sorts particles into cells, for questions about points.
+  void look() const;
 
  private:
   std::vector<Stage<Dim>> stages(const std::vector<Material>& materials) const;
@@ -61,7 +67,6 @@ class Hybrid final : public Package {
   void lead_state(Sph<Dim>& sph) const;
   void lead_rest(Sph<Dim>& sph) const;
   std::vector<std::size_t> cells_of(bool only_active) const;
-  void sort_into_cells() const;
   void move_zone();
   void remove_outside();
   void fill_holes(const std::vector<Part>& before);

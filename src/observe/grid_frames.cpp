@@ -77,7 +77,8 @@ GridFrames<Dim>::GridFrames(const Simulation& sim, const Grid<Dim>& grid, const 
                             bool catalyst)
     : Frames(sim, folder, catalyst,
              {view_of(sim.scene, grid), slice_fields, field_styles(sim.scene, expected(sim.scene, grid))}, {}),
-      grid_(grid) {
+      grid_(grid),
+      hybrid_(find_package<Hybrid<Dim>>(sim)) {
   slice_grid_ = within(slice_grid_, grid.box());
 }
 
@@ -89,14 +90,26 @@ SampledImage GridFrames<Dim>::make_slice() {
   const auto width = static_cast<std::size_t>(slice_grid_.width), height = static_cast<std::size_t>(slice_grid_.height);
   const std::vector<double> nothing(width * height, std::numeric_limits<double>::quiet_NaN());
   image.fields = {{"density", "kg/m^3", {nothing}}, {"pressure", "Pa", {nothing}}, {"mach", "1", {nothing}}};
+  if (hybrid_) hybrid_->look();
+  // The edge of what particles fill is left blank, a line one pixel wide.
+  const auto active = [&](const Vec<Dim>& x) {
+    return hybrid_ && grid_.at(x) && hybrid_->zone()[cell_of(grid_.box(), x)] == Part::active;
+  };
   parallel_blocks(height, 1, [&](std::size_t row, std::size_t) {
     for (std::size_t column = 0; column < width; ++column) {
       Vec<Dim> x;
       x[0] = slice_grid_.first[0] + static_cast<double>(column) * slice_grid_.pixel;
       x[Dim - 1] = slice_grid_.first[1] + static_cast<double>(row) * slice_grid_.pixel;
       if constexpr (Dim == 3) x[1] = view_.center[1];
-      const auto state = grid_.at(x);
+      const auto state = hybrid_ ? hybrid_->at(x) : grid_.at(x);
       if (!state) continue;
+      if (hybrid_) {
+        Vec<Dim> right = x, up = x;
+        right[0] += slice_grid_.pixel;
+        up[Dim - 1] += slice_grid_.pixel;
+        const bool here = active(x);
+        if (active(right) != here || active(up) != here) continue;
+      }
       const std::size_t i = row * width + column;
       image.fields[0].components[0][i] = state->density;
       image.fields[1].components[0][i] = state->pressure;

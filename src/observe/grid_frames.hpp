@@ -1,6 +1,6 @@
 #pragma once
 /// Pictures of a grid: slices.
-#include "grid/grid.hpp"
+#include "hybrid/hybrid.hpp"
 #include "observe/frames.hpp"
 
 namespace ejecta {
@@ -15,6 +15,7 @@ class GridFrames final : public Frames {
   SampledImage make_slice() override;
 
   const Grid<Dim>& grid_;
+  const Hybrid<Dim>* hybrid_;  ///< that the grid is part of, or null
   SampledImage slice_;
 };
 

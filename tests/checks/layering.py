@@ -9,7 +9,7 @@ import pathlib
 import re
 import sys
 
-LAYERS = ["base", "scene", "material", "model", "reference", "particles", "schemes", "sph", "grid", "simulation", "analysis", "render", "insitu",
+LAYERS = ["base", "scene", "material", "model", "reference", "particles", "schemes", "sph", "grid", "hybrid", "simulation", "analysis", "render", "insitu",
           "output", "observe", "app"]
 
 # What a line of code may match only in the files named by the second pattern, and what it is called.

@@ -64,7 +64,7 @@ def rows(case, measurements):
     for key in measurements[0].errors if measurements else ():
         for coarse, m in zip([None, *measurements], measurements):
             numerics, error = m.scene["numerics"], m.errors[key]
-            if numerics["scheme"] == "fvm":
+            if numerics["scheme"] in ("fvm", "hybrid"):
                 courant = m.scene["grid"].get("courant", 0.8 if m.summary["dimension"] == 2 else 0.45)
                 method = "", "", float("nan"), "", courant
             else:

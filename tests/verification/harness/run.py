@@ -91,7 +91,7 @@ class Run:
         """What a full dump holds: particles, or the cells of a grid."""
         if not self.on_grid:
             return State(file)
-        spacing = number(self.scene["resolution"]["spacing"])
+        spacing = number(self.scene["resolution"]["spacing"]) * self.scene.get("hybrid", {}).get("ratio", 1)
         return GridState(file, spacing, next(iter(self.scene["materials"].values()))["eos"]["gamma"])
 
     @cached_property
@@ -106,7 +106,7 @@ class Run:
 
     @property
     def on_grid(self):
-        return self.scene["numerics"]["scheme"] == "fvm"
+        return self.scene["numerics"]["scheme"] in ("fvm", "hybrid")
 
     @property
     def dimension(self):
