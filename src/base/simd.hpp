@@ -128,7 +128,7 @@ void set_lane(V& a, int k, double value) {
 
 inline double square_root(double a) { return std::sqrt(a); }
 #if defined(__AVX512F__)
-Doubles square_root(Doubles a);
+inline Doubles square_root(Doubles a) { return (Doubles)_mm512_maskz_sqrt_pd(all_doubles, (__m512d)a); }
 Floats square_root(Floats a);
 #elif defined(__AVX2__)
 inline Doubles square_root(Doubles a) { return (Doubles)_mm256_sqrt_pd((__m256d)a); }
@@ -141,8 +141,9 @@ V square_root(V a) {
 }
 #endif
 
-/// 1/a and 1/sqrt(a) to a few units in the last place: where there are estimates of 14 bits, from them by Newton steps
-/// y <- y (2 - a y) and y <- y (1.5 - a/2 y^2).
+/// 1/a and 1/sqrt(a) to a few units in the last place. Where there are estimates of 14 bits they come from them by
+/// Newton steps y <- y (2 - a y) and y <- y (1.5 - a/2 y^2), where that is faster: roots and quotients of doubles alone
+/// keep to units of their own that work beside the multiplications.
 template <class V>
 inline V reciprocal(V a) {
   return 1 / a;
@@ -152,11 +153,6 @@ inline V reciprocal_sqrt(V a) {
   return 1 / square_root(a);
 }
 #ifdef __AVX512F__
-inline Doubles reciprocal(Doubles a) {
-  Doubles y = (Doubles)_mm512_maskz_rcp14_pd(all_doubles, (__m512d)a);
-  y = y * (2.0 - a * y);
-  return y * (2.0 - a * y);
-}
 inline Floats reciprocal(Floats a) {
   const Floats y = (Floats)_mm512_maskz_rcp14_ps(all_floats, (__m512)a);
   return y * (2.0f - a * y);
@@ -171,8 +167,7 @@ inline Floats reciprocal_sqrt(Floats a) {
   const Floats y = (Floats)_mm512_maskz_rsqrt14_ps(all_floats, (__m512)a);
   return y * (1.5f - 0.5f * a * y * y);
 }
-/// To a few units in the last place, and far faster than the instruction of that name; 0 of 0.
-inline Doubles square_root(Doubles a) { return a * reciprocal_sqrt(Doubles(a + 1e-300)); }
+/// To a few units in the last place; 0 of 0.
 inline Floats square_root(Floats a) { return a * reciprocal_sqrt(Floats(a + 1e-37f)); }
 #endif
 

@@ -3,6 +3,7 @@
 /// policy, a struct `Flux` with
 ///   static constexpr bool whole               whether it stands for the stresses too (below)
 ///   static constexpr bool uneven              whether it heats one side more than the other
+///   static constexpr bool closing_only        whether it is 0 where v.x >= 0: the loop leaves it out there
 ///   Flux::Record<Dim, Strained>               what it adds to the record of a particle (Strained: with the velocity
 ///                                             gradient of the evaluation before): `size` places from R::flux on,
 ///     Record(particles, scales)               filled in by

@@ -23,6 +23,7 @@ struct Bond<V, Dim, true> {
 template <class T, class V, int Dim, RecordKind Kind, class Pair>
 struct Partner : Bond<V, Dim, Kind.bonded> {
   V dx[Dim], r2;  ///< x_j - x_i
+  V along;        ///< v.x, from the first body on
   Pair pair;
   const T *record, *contact;  ///< contact: only with contacts
   bool foreign;               ///< in some lane of another piece; only with contacts
@@ -34,11 +35,12 @@ struct Partner : Bond<V, Dim, Kind.bonded> {
     else
       return pair.central(dx, r2);
   }
-  void kernel_gradient(V (&g)[Dim]) const {
+  /// The kernel gradient times a factor.
+  void kernel_gradient(V (&g)[Dim], T factor = 1) const {
     if constexpr (Kind.bonded)
-      pair.gradient(this->between, g);
+      pair.gradient(this->between, factor, g);
     else
-      pair.gradient(dx, g);
+      pair.gradient(dx, factor, g);
   }
 };
 
@@ -96,17 +98,6 @@ struct Members {
       for (int a = 0; a < Dim; ++a) between[a] = p.dx[a];
       distance2 = p.r2;
     }
-  }
-  /// Whether any of the candidates may be of another piece.
-  bool several_pieces(std::span<const std::uint32_t> candidates) const {
-    if constexpr (Kind.bonded) return true;
-    const auto piece_of = [&](std::size_t i) { return records[i * R::size + R::piece]; };
-    const T first = piece_of(cluster.begin);
-    for (std::size_t i = cluster.begin; i < cluster.end; ++i)
-      if (piece_of(i) != first) return true;
-    for (const std::uint32_t j : candidates)
-      if (piece_of(j) != first) return true;
-    return false;
   }
   /// 1 in the lanes of the partner's piece, 0 in others.
   template <class Partner>

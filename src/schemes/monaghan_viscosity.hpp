@@ -41,7 +41,7 @@ Symmetric<Dim> rate_of_strain(const Mat<Dim>& L) {
 
 /// Monaghan's viscosity (1992), q_ij of PairPass::rates: f rho_ij (-alpha c mu + beta mu^2).
 struct MonaghanViscosity {
-  static constexpr bool whole = false, uneven = false;
+  static constexpr bool whole = false, uneven = false, closing_only = true;
 
   /// Reads where they exist viscosity_factor, shock_switch and velocity_gradient.
   template <int Dim, bool Strained>

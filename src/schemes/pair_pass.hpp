@@ -1,7 +1,7 @@
 #pragma once
 /// The pair passes: sums over neighbours in gather form (docs/pair_pass.md says how they are built). A thread writes
-/// only its own particles, and the force of j on i is minus that of i on j bit for bit, so momentum is exact and
-/// nothing depends on the number of threads.
+/// only its own particles, so nothing depends on the number of threads; and the force of j on i is minus that of i on j
+/// to round-off, so momentum is exact.
 #include <memory>
 #include <optional>
 #include <span>

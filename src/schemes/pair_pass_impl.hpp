@@ -36,7 +36,7 @@ class PairPassOf final : public PairPass<Dim> {
   void slopes(Particles<Dim>& particles, const PairLists<Dim>& lists) override;
   std::size_t bytes() const override {
     return (records_.capacity() + contacts_.capacity()) * sizeof(T) + in_contact_.capacity() +
-           around_.sums.capacity() * sizeof(around_.sums[0]);
+           pieces_.capacity() * sizeof(pieces_[0]) + around_.sums.capacity() * sizeof(around_.sums[0]);
   }
 
  private:
@@ -56,6 +56,8 @@ class PairPassOf final : public PairPass<Dim> {
   struct RateSums {
     simd::WideSum<T> acceleration[Dim], heat, friction_heat;  ///< heat: twice what the pairs give
     V divergence{}, moment{}, fastest{};
+    V gradients[Dim] = {};  ///< weighted kernel gradients: what the stress of i acts on
+    V pull[Dim] = {};       ///< of the stresses of all j
     TensorSum gradient, contact_gradient;
     TensorSum cut, cut_moment;  ///< the share that cracks take off
   };
@@ -63,8 +65,9 @@ class PairPassOf final : public PairPass<Dim> {
   RecordScales scales() const {
     return {K::template norm<Dim>, K::support, K::reduced_scale, K::reduced_over_r, settings_.length_unit};
   }
-  /// Fetches what the next batch will want: `values` from the start of its records on.
-  void prefetch(std::uint32_t index, int values) const {
+  /// Fetches what the next batch will want: `values` from the start of its records on. Inlined by order: GCC takes a
+  /// function that only prefetches for one without effect and drops the call.
+  [[gnu::always_inline]] inline void prefetch(std::uint32_t index, int values) const {
     constexpr int line = 64 / sizeof(T);
     const T* record = records_.data() + static_cast<std::size_t>(index) * R::size;
     for (int k = 0; k < values; k += line) __builtin_prefetch(record + k);
@@ -84,6 +87,7 @@ class PairPassOf final : public PairPass<Dim> {
   }
   void rates_by_stress(Particles<Dim>& particles, const PairLists<Dim>& lists);
   void rates_by_flux(Particles<Dim>& particles, const PairLists<Dim>& lists);
+  bool several_pieces(const Cluster& c, Candidates candidates) const;
   void find_contacts(std::size_t cluster, const PairLists<Dim>& lists);
   template <bool Contacts>
   void sum_moments(const RateColumns<Dim>& columns, const Cluster& c, Candidates candidates);
@@ -107,14 +111,17 @@ class PairPassOf final : public PairPass<Dim> {
   PairPassSettings settings_;
   std::vector<T> records_, contacts_;  ///< contacts_: empty where nothing can be in contact
   std::vector<char> in_contact_;       ///< by cluster
+  std::vector<std::int32_t> pieces_;   ///< of all records, close together; empty where nothing can be in contact
   Surroundings<Dim> around_;
 };
 
 /// Candidates go in batches through short loops: who is within reach of any lane, and what passes between those, in one
 /// loop for each body. Lists have margins, so many are not; chains of dependent operations overlap better in short
 /// loops; and the sums of each stay in registers. Who is within reach is kept as bits in a register: an address made of
-/// it would hold up the loads that follow.
-/// Calls count(pair) for every candidate and each body(partner) for those within reach.
+/// it would hold up the loads that follow, and branches on it would often be guessed wrong.
+/// Calls count(pair) for every candidate and the first body(partner) for those within reach. A body that returns
+/// whether the next one has anything to do there narrows them down. No two bodies add to one sum: how they take turns
+/// depends on how far the lists reach, and so would its rounding.
 template <class T, int Dim, PassKind Kind, class K, class Flux>
 template <bool Contacts, class Count, class... Bodies>
 void PairPassOf<T, Dim, Kind, K, Flux>::for_partners(const Members& members, const Support& support,
@@ -137,10 +144,18 @@ void PairPassOf<T, Dim, Kind, K, Flux>::for_partners(const Members& members, con
       count(p.pair);
       reached |= std::uint64_t{simd::any_less(V{}, p.pair.reach())} << (place - begin);
     }
-    const auto for_reached = [&](auto& body) __attribute__((always_inline)) {
-      for (std::uint64_t left = reached; left != 0; left &= left - 1) body(partners[std::countr_zero(left)]);
+    const auto for_each = [&](auto& body) __attribute__((always_inline)) {
+      std::uint64_t wanted = 0;
+      for (std::uint64_t left = reached; left != 0; left &= left - 1) {
+        const int k = std::countr_zero(left);
+        if constexpr (std::is_void_v<decltype(body(partners[k]))>)
+          body(partners[k]);
+        else
+          wanted |= std::uint64_t{body(partners[k])} << k;
+      }
+      reached = wanted;
     };
-    (for_reached(bodies), ...);
+    (for_each(bodies), ...);
   }
 }
 
@@ -162,6 +177,9 @@ void PairPassOf<T, Dim, Kind, K, Flux>::rates_by_stress(Particles<Dim>& particle
   if constexpr (Kind.stress) {
     around_.sums.resize(particles.size());
     if (settings_.contacts) {
+      pieces_.resize(particles.size() + lists.ghosts().size());
+      parallel_for(0, pieces_.size(),
+                   [&](std::size_t i) { pieces_[i] = static_cast<std::int32_t>(records_[i * R::size + R::piece]); });
       for_clusters(lists, [&](std::size_t k) { find_contacts(k, lists); });
       R::pack_contacts(particles, lists.ghosts(), rules, around_, contacts_);
     }

@@ -25,14 +25,65 @@ void PairPassOf<T, Dim, Kind, K, Flux>::cluster_rates(const RateColumns<Dim>& co
   [[maybe_unused]] const auto contact = contact_of<Contacts>(members);
 
   constexpr bool along_gradient = !Kind.stress || (!Kind.asph && !Kind.bonded);  // the flux acts along it
+  // In double precision, and within a piece, stresses act apart from the flux: that of j with the gradients, that of i
+  // in the end on the sum of all of them.
+  constexpr bool apart = Kind.stress && !R::split;
   RateSums sums;
+  const auto gradients = [&](Partner & p) __attribute__((always_inline)) {
+    const T* j = p.record;
+    V dv[Dim], gradient[Dim], weighted[Dim], returned[Dim];  // times V0_j, times w_ij/r_i, times V0_j w_ji/(V0_i r_j)
+    for (int a = 0; a < Dim; ++a) dv[a] = j[R::v + a] - v[a];
+    p.along = pair_detail::dot(dv, p.dx);
+    p.kernel_gradient(gradient, j[R::volume]);
+    for (int b = 0; b < Dim; ++b) returned[b] = weighted[b] = gradient[b];
+    if (!alike.with(j)) {
+      const Shares shares(alike.limit, expansion, compression, j[R::expansion], j[R::compression]);
+      for (int b = 0; b < Dim; ++b) {
+        weighted[b] *= shares.own;
+        returned[b] *= shares.other;
+      }
+    }
+    if constexpr (apart)
+      if (!Contacts || !p.foreign)
+        for (int b = 0; b < Dim; ++b) {
+          sums.gradients[b] += weighted[b];
+          for (int a = 0; a < Dim; ++a) sums.pull[a] += j[R::stress + a * Dim + b] * returned[b];
+        }
+    if constexpr (Kind.gradient) {
+      if constexpr (Contacts)
+        if (p.foreign) {
+          const V own = members.own(p);
+          V others[Dim], own_share, other_share;
+          contact.shares(p, own, own_share, other_share);
+          for (int b = 0; b < Dim; ++b) {
+            others[b] = own_share * gradient[b];
+            weighted[b] *= own;
+          }
+          sums.contact_gradient.add(dv, others);
+        }
+      sums.gradient.add(dv, weighted);
+      if constexpr (Kind.cracked) {
+        V image[Dim], across = simd::max(quadratic_form<Dim>(damage, p.dx, image),
+                                         quadratic_form<Dim>(j + R::damage, p.dx, image));
+        if (simd::any_less(V{}, across)) {  // most matter has no cracks
+          across = simd::min(V(across * simd::reciprocal(V(p.r2 + support_detail::guard<T>))), V{} + T(1));
+          for (int b = 0; b < Dim; ++b) weighted[b] *= across;
+          sums.cut.add(dv, weighted);
+          sums.cut_moment.add(p.dx, weighted);
+        }
+      }
+    } else if constexpr (!R::split) {  // else the work is not needed
+      sums.divergence += pair_detail::dot(dv, weighted);
+    }
+    return !apart || !Flux::closing_only || (Contacts && p.foreign) || simd::any_less(p.along, V{});  // to forces
+  };
   const auto forces = [&](const Partner& p) __attribute__((always_inline)) {
     const T* j = p.record;
     const T volume = j[R::volume];
     V dv[Dim], kernel_gradient[Dim], force[Dim];
     for (int a = 0; a < Dim; ++a) dv[a] = j[R::v + a] - v[a];
     p.kernel_gradient(kernel_gradient);
-    const V along = pair_detail::dot(dv, p.dx), central = p.central();
+    const V along = p.along, central = p.central();
     Jump<V> jump = flux.jump(p.dx, along, j);
     [[maybe_unused]] V own{}, uneven[Dim];  // uneven: what the stress of i gives more than that of j
     if constexpr (Contacts)
@@ -42,6 +93,15 @@ void PairPassOf<T, Dim, Kind, K, Flux>::cluster_rates(const RateColumns<Dim>& co
         jump.share = own > T(0) ? jump.share : V(contact.weight(p, own) * contact.softness(p));
       }
     const auto exchange = flux.between(support, p, jump.closing, V(jump.share * (expansion * j[R::expansion])));
+    sums.fastest = simd::min(sums.fastest, V(p.pair.moment > 0 ? exchange.approach : V{}));
+    if constexpr (Flux::uneven) sums.heat.add(volume, exchange.uneven);
+    if constexpr (apart)
+      if (!Contacts || !p.foreign) {
+        const V push = (volume * exchange.pressure) * central;  // along the pair, see below
+        for (int a = 0; a < Dim; ++a) sums.acceleration[a].sum -= push * p.dx[a];
+        sums.heat.sum -= push * along;
+        return;
+      }
     // With corrected gradients no torque is left but that of a flux off the pair's axis. Elsewhere that of smoothing
     // tensors follows their gradient: across shocks it is the better one.
     const V pressure = along_gradient ? exchange.pressure : V{};
@@ -91,47 +151,15 @@ void PairPassOf<T, Dim, Kind, K, Flux>::cluster_rates(const RateColumns<Dim>& co
       sums.heat.add(-volume,
                     exchange.pressure * (Kind.stress ? V(central * along) : pair_detail::dot(dv, kernel_gradient)));
     }
-    if constexpr (Flux::uneven) sums.heat.add(volume, exchange.uneven);
     for (int a = 0; a < Dim; ++a) sums.acceleration[a].add(volume, force[a]);
-    sums.fastest = simd::min(sums.fastest, V(p.pair.moment > 0 ? exchange.approach : V{}));
-  };
-  const auto gradients = [&](const Partner& p) __attribute__((always_inline)) {
-    const T* j = p.record;
-    V dv[Dim], kernel_gradient[Dim], weight = simd::all<V>(j[R::volume]);
-    for (int a = 0; a < Dim; ++a) dv[a] = j[R::v + a] - v[a];
-    if (!alike.with(j)) weight *= Shares(alike.limit, expansion, compression, j[R::expansion], j[R::compression]).own;
-    p.kernel_gradient(kernel_gradient);
-    if constexpr (Kind.gradient) {
-      V weighted[Dim];
-      for (int b = 0; b < Dim; ++b) weighted[b] = weight * kernel_gradient[b];
-      if constexpr (Contacts)
-        if (p.foreign) {
-          const V own = members.own(p);
-          V others[Dim], own_share, other_share;
-          contact.shares(p, own, own_share, other_share);
-          for (int b = 0; b < Dim; ++b) {
-            others[b] = own_share * (j[R::volume] * kernel_gradient[b]);
-            weighted[b] *= own;
-          }
-          sums.contact_gradient.add(dv, others);
-        }
-      sums.gradient.add(dv, weighted);
-      if constexpr (Kind.cracked) {
-        V image[Dim], across = simd::max(quadratic_form<Dim>(damage, p.dx, image),
-                                         quadratic_form<Dim>(j + R::damage, p.dx, image));
-        if (simd::any_less(V{}, across)) {  // most matter has no cracks
-          across = simd::min(V(across * simd::reciprocal(V(p.r2 + support_detail::guard<T>))), V{} + T(1));
-          for (int b = 0; b < Dim; ++b) weighted[b] *= across;
-          sums.cut.add(dv, weighted);
-          sums.cut_moment.add(p.dx, weighted);
-        }
-      }
-    } else if constexpr (!R::split) {  // else the work is not needed
-      sums.divergence += weight * pair_detail::dot(dv, kernel_gradient);
-    }
   };
   for_partners<Contacts>(
-      members, support, candidates, R::size, [&](const auto& pair) { sums.moment += pair.moment; }, forces, gradients);
+      members, support, candidates, R::size, [&](const auto& pair) { sums.moment += pair.moment; }, gradients, forces);
+  if constexpr (apart)
+    for (int a = 0; a < Dim; ++a) {
+      for (int b = 0; b < Dim; ++b) sums.pull[a] += stress[a * Dim + b] * sums.gradients[b];
+      sums.acceleration[a].add(1, sums.pull[a]);
+    }
   close<Contacts>(columns, c, sums, v, stress, contact);
 }
 

@@ -4,14 +4,24 @@
 
 namespace ejecta {
 
+/// Whether any of the candidates may be of another piece.
+template <class T, int Dim, PassKind Kind, class K, class Flux>
+bool PairPassOf<T, Dim, Kind, K, Flux>::several_pieces(const Cluster& c, Candidates candidates) const {
+  if constexpr (Kind.bonded) return true;
+  const auto differs = [&, first = pieces_[c.begin]](std::size_t i) { return pieces_[i] != first; };
+  for (std::size_t i = c.begin; i < c.end; ++i)
+    if (differs(i)) return true;
+  return std::ranges::any_of(candidates, differs);
+}
+
 /// Where other pieces are, and how near.
 template <class T, int Dim, PassKind Kind, class K, class Flux>
 void PairPassOf<T, Dim, Kind, K, Flux>::find_contacts(std::size_t cluster, const PairLists<Dim>& lists) {
   const Cluster& c = lists.clusters()[cluster];
   const auto candidates = lists.candidates(cluster);
-  const Members members(c, records_.data());
   for (std::size_t i = c.begin; i < c.end; ++i) around_.sums[i] = {};
-  if (!members.several_pieces(candidates)) return;
+  if (!several_pieces(c, candidates)) return;
+  const Members members(c, records_.data());
   const Support support{members.loader()};
   V outward[Dim] = {}, occupied{};
   for_partners<true>(
@@ -51,19 +61,20 @@ void PairPassOf<T, Dim, Kind, K, Flux>::sum_moments(const RateColumns<Dim>& colu
   for_partners<Contacts>(
       members, support, candidates, R::v, [](const auto&) {},
       [&](const Partner& p) __attribute__((always_inline)) {
-        const T volume = p.record[R::volume];
-        V weight = simd::all<V>(volume), gradient[Dim], weighted[Dim];
-        if (!alike.with(p.record))
-          weight *= Shares(alike.limit, expansion, compression, p.record[R::expansion], p.record[R::compression]).own;
-        p.kernel_gradient(gradient);
-        for (int b = 0; b < Dim; ++b) weighted[b] = weight * gradient[b];
+        V gradient[Dim], weighted[Dim];  // times V0_j; times the weight of j
+        p.kernel_gradient(gradient, p.record[R::volume]);
+        for (int b = 0; b < Dim; ++b) weighted[b] = gradient[b];
+        if (!alike.with(p.record)) {
+          const Shares shares(alike.limit, expansion, compression, p.record[R::expansion], p.record[R::compression]);
+          for (V& component : weighted) component *= shares.own;
+        }
         if constexpr (Contacts)
           if (p.foreign) {
             const V own = members.own(p);
             V others[Dim], own_share, other_share;
             contact.shares(p, own, own_share, other_share);
             for (int b = 0; b < Dim; ++b) {
-              others[b] = own_share * (volume * gradient[b]);
+              others[b] = own_share * gradient[b];
               weighted[b] *= own;
             }
             contact_moment.add(p.dx, others);

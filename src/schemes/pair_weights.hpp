@@ -28,17 +28,20 @@ struct WeightShares {
 /// Tells at once whether all lanes are so much alike in density with a partner that both shares are 1.
 template <class T, class V, class R>
 struct Alike {
-  T limit, most = 0;               ///< where x + 1/x reaches the limit, a little less
-  T expanded = 0, compressed = 0;  ///< the most of all lanes
+  T limit, least, most;  ///< of the expansion of such a partner
 
   Alike(double alike, V expansion, V compression) : limit(static_cast<T>(alike)) {
-    if (alike > 2) most = static_cast<T>(0.999 * 0.5 * (alike + std::sqrt(alike * alike - 4)));
+    T expanded = 0, compressed = 0;  // the most of all lanes
     for (int k = 0; k < simd::lanes<T>; ++k) {
       expanded = std::max(expanded, expansion[k]);
       compressed = std::max(compressed, compression[k]);
     }
+    // Where x + 1/x reaches the limit, a little less.
+    const T ratio = alike > 2 ? static_cast<T>(0.999 * 0.5 * (alike + std::sqrt(alike * alike - 4))) : T(0);
+    least = expanded / ratio;
+    most = ratio / compressed;
   }
-  bool with(const T* j) const { return j[R::expansion] * compressed < most && j[R::compression] * expanded < most; }
+  bool with(const T* j) const { return j[R::expansion] > least && j[R::expansion] < most; }
 };
 
 }  // namespace ejecta::pair_detail

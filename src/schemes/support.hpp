@@ -35,12 +35,12 @@ struct IsotropicSupport {
     V moment;  ///< |dW/deta| at eta_i = r/h_i, over moment_scale
     /// > 0 exactly where one reaches the other.
     V reach() const { return slope; }
-    void gradient(const V (&dx)[Dim], V (&g)[Dim]) const {
-      for (int a = 0; a < Dim; ++a) g[a] = slope * dx[a];
+    void gradient(const V (&dx)[Dim], S factor, V (&g)[Dim]) const {
+      const V scaled = factor * slope;
+      for (int a = 0; a < Dim; ++a) g[a] = scaled * dx[a];
     }
     /// The same with a direction along the pair: central(...) (x_j - x_i).
     V central(const V (&)[Dim], V) const { return slope; }
-    void mask(V keep) { slope *= keep; }
   };
 
   /// r2 = |x_j - x_i|^2; `j` is the record of the partner.
@@ -107,17 +107,14 @@ struct EllipsoidalSupport {
     V weight;      ///< > 0 exactly where one reaches the other
     V mean_eta;
     V reach() const { return weight; }
-    void gradient(const V (&)[Dim], V (&g)[Dim]) const {
-      for (int a = 0; a < Dim; ++a) g[a] = along[a];
+    void gradient(const V (&)[Dim], S factor, V (&g)[Dim]) const {
+      for (int a = 0; a < Dim; ++a) g[a] = factor * along[a];
     }
     /// What the gradient is along the pair, central(...) (x_j - x_i): x.G x > 0 keeps its sign.
     V central(const V (&dx)[Dim], V r2) const {
       V sum = along[0] * dx[0];
       for (int a = 1; a < Dim; ++a) sum += along[a] * dx[a];
       return sum * simd::reciprocal(V(r2 + support_detail::guard<S>));
-    }
-    void mask(V keep) {
-      for (int a = 0; a < Dim; ++a) along[a] *= keep;
     }
   };
 

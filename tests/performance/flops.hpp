@@ -1,7 +1,8 @@
 #pragma once
 /// Floating-point operations counted in the source: additions, subtractions, multiplications and divisions are one
-/// each, comparisons and signs none. Reciprocals count as the Newton steps that make them (base/simd.hpp), roots as
-/// one. What the caller holds in registers for a whole loop is not counted.
+/// each, comparisons and signs none. Reciprocals of single precision count as the Newton steps that make them
+/// (base/simd.hpp), those of double precision and roots as one. What the caller holds in registers for a whole loop is
+/// not counted.
 #include "scene/scene.hpp"
 
 namespace ejecta::flops {
@@ -13,7 +14,7 @@ struct PairWork {
   bool mixed, stress, gradient, correction;
 };
 
-constexpr int reciprocal(bool mixed) { return mixed ? 3 : 6; }
+constexpr int reciprocal(bool mixed) { return mixed ? 3 : 1; }
 
 constexpr int kernel_slope(Kernel kernel) {
   switch (kernel) {
@@ -70,19 +71,23 @@ constexpr int pair_reach(const PairWork& w) {
   return (w.correction ? 2 : 1) * (separation(w) + distances + slopes + over_r + moment);
 }
 /// The same: one lane and one partner within reach of any lane, for what passes between them. Partners are about as
-/// dense as their neighbours; in single precision the shares of their weights are applied all the same.
+/// dense as their neighbours, and all of them close; in single precision the shares of their weights are applied all
+/// the same.
 constexpr int pair_exchange(const PairWork& w) {
   const int dim = w.dim, dot = 2 * dim - 1;
-  const int stresses = w.stress ? dim * dim : 1;
-  const int shares = 2 + 3 + 3 + 2;
-  const int differences_and_gradient = dim + dim + dot;
-  const int viscosity = 1 + 5 + 3 + 9 + (w.stress ? 2 : 1) * dim;
-  const int contraction = stresses + (w.stress ? dim * dot : dim);
+  const int differences = dim + dot, gradients = 1 + dim + 2 * dim * dim;
+  const int viscosity = 1 + 5 + 3 + 9;
+  const int moment = w.correction ? 1 + 3 * dim + dim * (dim + 1) : 0;
+  if (w.stress && !w.mixed) {
+    const int stresses = dim + 2 * dim * dim, push = 2 + 2 * dim + 2;
+    return differences + gradients + stresses + viscosity + push + moment;
+  }
+  const int shares = w.mixed ? 2 + 3 + 3 + 2 : 0, stresses = w.stress ? dim * dim : 1;
+  const int contraction = stresses + (w.stress ? dim * dot + 2 * dim : 2 * dim);
   const int force = (w.mixed ? 2 * contraction + 2 * stresses : contraction) + dim;
   const int work = w.mixed ? 3 * dim + dot + 2 : dot + 2;
-  const int gradient = w.gradient ? 1 + dim + 2 * dim * dim : 1 + dot + 2;
-  const int moment = w.correction ? shares + dim + 1 + dim + dim * (dim + 1) : 0;
-  return shares + differences_and_gradient + viscosity + force + work + 2 * dim + gradient + moment;
+  return shares + differences + dim + viscosity + force + work + 2 * dim + (w.gradient ? gradients : 1 + dot + 2) +
+         moment;
 }
 
 /// One lane and one candidate of PairPass::density.

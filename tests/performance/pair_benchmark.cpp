@@ -1,5 +1,8 @@
 /// The pair passes: pair_rates/<dimension>/<kernel>/<precision>/<gas|stress|corrected> and
-/// summation_density/<dimension>/<kernel>/<precision>. Time does not depend on the state of the particles.
+/// summation_density/<dimension>/<kernel>/<precision>. Particles move at random, so that viscosity acts between all:
+/// where nothing closes a pass of solids in double precision is faster.
+#include <random>
+
 #include "particles/spatial_order.hpp"
 #include "performance/bodies.hpp"
 #include "performance/flops.hpp"
@@ -33,6 +36,10 @@ struct PairCase {
     std::vector<std::uint32_t> order;
     spatial_order(sim.particles, cluster, order);
     sim.particles.reorder(order);
+    std::mt19937_64 random(1);
+    std::uniform_real_distribution<double> speed(-10, 10);  // m/s
+    for (int a = 0; a < Dim; ++a)
+      for (double& v : sim.particles.column(Field::velocity, a)) v = speed(random);
     lists.build(sim.particles, {kernel_support(work.kernel), cluster, 0, {}});
     pass = make_pair_pass<Dim>(settings);
   }

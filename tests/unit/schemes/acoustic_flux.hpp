@@ -12,7 +12,7 @@
 namespace ejecta {
 
 struct AcousticFlux {
-  static constexpr bool whole = false, uneven = true;
+  static constexpr bool whole = false, uneven = true, closing_only = false;
 
   template <int Dim, bool Strained>
   class Record {

@@ -92,11 +92,13 @@ TEST(Conservation, RawGradientsLoseAngularMomentum) {
   EXPECT_GT(balance_of(p).angular_momentum, 1e-4) << "else the test above shows nothing";
 }
 
-/// Two particles whose masses and densities are powers of two, so that m a is the force without another rounding.
+/// Two particles whose masses and densities are powers of two, so that m a is the force without another rounding. Bit for
+/// bit, but for stresses within a piece in double precision, which are not added pair by pair.
 template <int Dim>
 void expect_antisymmetry(const Kind& kind, Precision precision) {
   Uniform uniform(29);
   std::size_t acting = 0;
+  const bool exact = !kind.stress || kind.pieces || precision == Precision::mixed;
   for (unsigned trial = 0; trial < 200; ++trial) {
     auto settings = settings_of(Kernel::wendland_c4, precision, kind.stress, kind.stress);
     settings.asph = kind.asph;
@@ -114,15 +116,15 @@ void expect_antisymmetry(const Kind& kind, Precision precision) {
     p.label(Label::body)[0] = 0;
     p.label(Label::body)[1] = 1;
     run_rates(p, settings);
-    for (int a = 0; a < Dim; ++a)
-      EXPECT_EQ(p.column(Field::mass)[0] * p.column(Field::acceleration, a)[0],
-                -p.column(Field::mass)[1] * p.column(Field::acceleration, a)[1]);
+    const Vec<Dim> force = p.column(Field::mass)[0] * p.vector(Field::acceleration, 0);
+    const Vec<Dim> reaction = p.column(Field::mass)[1] * p.vector(Field::acceleration, 1);
+    EXPECT_LE((force + reaction).norm(), exact ? 0 : 1e-13 * force.norm());
     acting += !p.vector(Field::acceleration, 0).isZero(0);
   }
   EXPECT_GT(acting, 50u);
 }
 
-TEST(Conservation, TheForceOfAPairIsAntisymmetricBitForBit) {
+TEST(Conservation, TheForceOfAPairIsAntisymmetric) {
   for (const Precision precision : {Precision::double_precision, Precision::mixed})
     for (const Kind& kind : {Kind{.stress = false}, Kind{}, Kind{.asph = true}, Kind{.pieces = true, .friction = 0.3},
                              Kind{.asph = true, .pieces = true, .friction = 0.3}}) {
