@@ -231,19 +231,24 @@ void Hybrid<Dim>::fill_holes(const std::vector<Part>& before) {
   look();
   const double all = std::pow(settings_.ratio, Dim);  // particles of a cell
   std::vector<Vec<Dim>> sites;
+  std::vector<double> size(p.size());
+  parallel_for(0, p.size(), [&](std::size_t i) {
+    size[i] = std::pow(p.column(Field::mass)[i] / p.column(Field::density)[i], 1.0 / Dim);
+  });
   const auto is_free = [&](std::size_t cell, const Vec<Dim>& x) {
     bool found = false;
     for_cells_near<Dim>(box, box.cell(cell), 1, [&](std::size_t near, int) {
       for (std::uint32_t k = first_[near]; k < first_[near + 1] && !found; ++k) {
         const std::size_t i = in_cells_[k];
-        Vec<Dim> d = p.vector(Field::position, i) - x;
-        for (std::size_t a = 0; a < Dim; ++a)
-          if (box.lower[a] == BoundaryKind::periodic) {
-            const double length = box.cells[a] * box.spacing;
-            d[static_cast<int>(a)] -= length * std::round(d[static_cast<int>(a)] / length);
-          }
-        const double own = std::pow(p.column(Field::mass)[i] / p.column(Field::density)[i], 1.0 / Dim);
-        found = d.norm() < room * 0.5 * (own + scene_.spacing);
+        double squares = 0;
+        for (std::size_t a = 0; a < Dim; ++a) {
+          double d = p.column(Field::position, static_cast<int>(a))[i] - x[static_cast<int>(a)];
+          if (const double length = box.cells[a] * box.spacing; box.lower[a] == BoundaryKind::periodic)
+            d -= length * std::round(d / length);
+          squares += d * d;
+        }
+        const double apart = room * 0.5 * (size[i] + scene_.spacing);
+        found = squares < apart * apart;
       }
     });
     return !found;
@@ -337,8 +342,7 @@ void Hybrid<Dim>::follow_particles() {
   std::vector<std::array<double, Dim + 2>> wanted(active.size());
   for (std::size_t k = 0; k < active.size(); ++k)
     for (std::size_t c = 0; c < Dim + 2; ++c)
-      wanted[k][c] = found[k].volume > least_covered * grid_.box().cell_volume() ? found[k].sum[c] / found[k].volume
-                                                                               : grid_.cells()[c][active[k]];
+      wanted[k][c] = found[k].volume > least_covered ? found[k].sum[c] : grid_.cells()[c][active[k]];
   if (settings_.transfer == Transfer::interpolate) return grid_.put(active, wanted);
   const CellChanges<Dim> changes = correct_by_fluxes(grid_, active, place, wanted);
   grid_.put(changes.cells, changes.values);

@@ -52,7 +52,7 @@ std::vector<Restricted<Dim>> restrict_particles(const Particles<Dim>& p, const B
       for (std::size_t a = 0; a < Dim; ++a) any = any && first[a] <= last[a];
       while (any) {
         if (const std::int32_t at = place[box.index(cell)]; at >= 0) {
-          double overlap = box.cell_volume();
+          double overlap = 1;
           for (std::size_t a = 0; a < Dim; ++a) {
             const Extent& e = extents[a][static_cast<std::size_t>(image[a])];
             overlap *= std::min<double>(e.high, cell[a] + 1) - std::max<double>(e.low, cell[a]);

@@ -10,13 +10,16 @@ namespace ejecta {
 /// A cell as its particles see it.
 template <int Dim>
 struct Restricted {
-  std::array<double, Dim + 2> sum{};  ///< density, momentum and energy per volume, times the volume that is covered
-  double volume = 0;                  ///< of the cell, covered by particles [m^3; m^2]
+  std::array<double, Dim + 2> sum{};  ///< density, momentum and energy per volume
+  double volume = 0;                  ///< share of the cell that particles cover
 };
 
 /// Of the active cells of a zone, one each in the order of `cells`. Every particle is a square (a cube) as large as its
-/// volume m/rho, and counts where it overlaps, its images behind mirrors and one period away too: densities are means
-/// over what is covered, so that uniform gas is uniform in the cells, however its particles lie.
+/// volume m/rho, and brings each cell what it overlaps with, its images behind mirrors and one period away too. What the
+/// particles have is in the cells, no more and no less. Means over what is covered would be smoother (a stream through a
+/// zone is disturbed by two thirds), and wrong: in a shock, volumes by number overlap or leave gaps as the lattice lies, and
+/// what means then add or take away comes out of the neighbours: 1 kt at 20 cm carried a third of its mass from
+/// the diagonal to the axes by 1 ms, where it is 4 % so.
 template <int Dim>
 std::vector<Restricted<Dim>> restrict_particles(const Particles<Dim>& particles, const Box<Dim>& box,
                                                 const std::vector<std::int32_t>& place, std::size_t cells);

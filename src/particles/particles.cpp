@@ -65,9 +65,15 @@ void Particles<Dim>::swap_rates() {
 
 template <int Dim>
 void Particles<Dim>::reorder(std::span<const std::uint32_t> order) {
+  // There are many columns: for a few particles threads would take longer to meet than to do their work.
+  constexpr std::size_t worth_threads = 50'000;
   auto permute = [&](auto& column, auto& scratch) {
     if (column.empty()) return;
-    parallel_for(0, size_, [&](std::size_t i) { scratch[i] = column[order[i]]; });
+    const auto fetch = [&](std::size_t i) { scratch[i] = column[order[i]]; };
+    if (size_ < worth_threads)
+      for (std::size_t i = 0; i < size_; ++i) fetch(i);
+    else
+      parallel_for(0, size_, fetch);
     column.swap(scratch);
   };
   for (auto& column : columns_) permute(column, scratch_);

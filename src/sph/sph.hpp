@@ -72,6 +72,7 @@ struct Sph final : Package {
   std::vector<Remark> remarks() const override;
   std::string describe(std::size_t particle) const override;
   std::string whereabouts(std::size_t particle) const override;
+  std::optional<BlastFront> blast() const override;
   std::string_view element() const override { return "particle"; }
   std::size_t elements() const override { return particles.size(); }
   std::size_t bytes() const override;

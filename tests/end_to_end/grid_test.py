@@ -4,7 +4,7 @@ import unittest
 from ejecta_run import SOURCE, RunTest, Snapshot, Table, ejecta, settings, summary
 
 BLAST = SOURCE / "inputs" / "blast_1kt.toml"
-VALUES = {"resolution.spacing": "80 cm", "time.end": "225 us", "output.times": '["56 us", "100 us"]', "insitu.frames": 3,
+VALUES = {"resolution.spacing": "80 cm", "charge.start": "20 us", "time.end": "225 us", "output.times": '["56 us", "100 us"]', "insitu.frames": 3,
           "insitu.max_share": 1, "insitu.image_width": 480, "insitu.image_height": 360}
 COLUMNS = ("density", "momentum_x", "momentum_y", "energy")
 

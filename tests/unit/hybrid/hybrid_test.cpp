@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "base/errors.hpp"
 #include "base/parallel.hpp"
@@ -113,8 +114,8 @@ TEST(Hybrid, AStreamPassesThroughTheZone) {
     const char* velocity;
     double largest, mean;  ///< measured and half of it more
   };
-  for (const Stream& stream : {Stream{"velocity = [\"0.4\", \"0\"]", 0.08, 0.017}, Stream{"velocity = [\"2\", \"0\"]", 0.015, 0.003},
-                               Stream{"velocity = [\"1.732\", \"1\"]", 0.02, 0.004}}) {
+  for (const Stream& stream : {Stream{"velocity = [\"0.4\", \"0\"]", 0.08, 0.017}, Stream{"velocity = [\"2\", \"0\"]", 0.026, 0.0055},
+                               Stream{"velocity = [\"1.732\", \"1\"]", 0.04, 0.006}}) {
     const auto hybrid = make_hybrid<2>(box(stream.velocity, 2, 2));
     hybrid->hold_zone(in_disc<2>);
     take_steps(*hybrid, hybrid->particles().scene, 60);
@@ -197,29 +198,42 @@ TEST(Hybrid, ThreadsChangeNoBit) {
   EXPECT_EQ(results[0], results[1]);
 }
 
-/// Particles that fill a cell say what they are made of, wherever they are cut.
-TEST(Restriction, UniformGasIsUniformHoweverItsParticlesLie) {
+/// Cells get what their particles have, wherever they are cut, and whole particles on a lattice tile them.
+TEST(Restriction, GivesWhatParticlesHave) {
   Box<2> cells;
   cells.cells = {4, 4};
   cells.spacing = 1;
   cells.lower = cells.upper = {BoundaryKind::reflecting, BoundaryKind::reflecting};
   Particles<2> p;
   p.allocate(16, std::array{Field::density, Field::specific_energy});
+  const auto lay = [&](double mass_range) {
+    for (std::size_t i = 0; i < 16; ++i) {
+      p.set_vector(Field::position, i, Vec<2>(static_cast<double>(i % 4) + 0.3, static_cast<double>(i / 4) + 0.8));
+      p.set_vector(Field::velocity, i, Vec<2>(0.1 * static_cast<double>(i), -0.2));
+      p.column(Field::mass)[i] = 2 + mass_range * static_cast<double>(i % 3);
+      p.column(Field::density)[i] = 2;
+      p.column(Field::specific_energy)[i] = 5;
+    }
+  };
+  std::vector<std::int32_t> place(16);
+  std::iota(place.begin(), place.end(), 0);
+  lay(0);
+  for (const auto& r : restrict_particles(p, cells, {-1, -1, -1, -1, -1, 0, 1, -1, -1, -1, -1, -1, -1, -1, -1, -1}, 2)) {
+    EXPECT_NEAR(r.volume, 1, 1e-12);
+    EXPECT_NEAR(r.sum[0], 2, 1e-12);
+  }
+  lay(0.1);  // some overlap now; with the parts that mirrors throw back everything is within the box
+  double mass = 0, energy = 0, expected = 0, expected_energy = 0;
+  for (const auto& r : restrict_particles(p, cells, place, 16)) {
+    mass += r.sum[0];
+    energy += r.sum[3];
+  }
   for (std::size_t i = 0; i < 16; ++i) {
-    p.set_vector(Field::position, i, Vec<2>(static_cast<double>(i % 4) + 0.3, static_cast<double>(i / 4) + 0.8));
-    p.column(Field::mass)[i] = 2 + 0.1 * static_cast<double>(i % 3);
-    p.column(Field::density)[i] = 2;
-    p.column(Field::specific_energy)[i] = 5;
+    expected += p.column(Field::mass)[i];
+    expected_energy += p.column(Field::mass)[i] * (5 + 0.5 * p.vector(Field::velocity, i).squaredNorm());
   }
-  std::vector<std::int32_t> place(16, -1);
-  place[5] = 0;
-  place[0] = 1;
-  const auto found = restrict_particles(p, cells, place, 2);
-  for (const auto& r : found) {
-    EXPECT_NEAR(r.volume, 1, 0.2);
-    EXPECT_NEAR(r.sum[0] / r.volume, 2, 1e-12);
-    EXPECT_NEAR(r.sum[3] / r.volume, 10, 1e-12);
-  }
+  EXPECT_NEAR(mass, expected, 1e-12);
+  EXPECT_NEAR(energy, expected_energy, 1e-12);
 }
 
 /// What two neighbours exchange must not go by way of the gas around them.

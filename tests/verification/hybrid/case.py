@@ -7,21 +7,16 @@ from grid_tubes.case import Tube
 from harness import Bound
 from sod.case import Sod
 
-DEBRIS = "what the edge of the debris has become, which is unstable, pushes at the front"
-
-
 class HybridBlast(GridBlast):
     """Resolution: particles in 8 m; cells of the grid are twice as wide."""
     name = "hybrid_blast"
-    title = "blast of 1 kt, a cylinder, a quarter of it, hybrid, t = 1 ms"
+    title = "blast of 1 kt, a cylinder, a quarter of it, particles at its front, t = 1 ms"
+    scene = "../../../inputs/blast_hybrid.toml"
     quick = (20,)
     full = (20, 40)
+    small = {"time.end": "70 us"}
     rotation = "a quarter, whose other faces are not given"
     bounds = ()
-
-    def settings(self, resolution):
-        return {**super().settings(resolution), "numerics.scheme": "hybrid", "boundary.x_min": "symmetry",
-                "boundary.y_min": "symmetry", "boundary.min": (0, 0, "m")}
 
 
 class HybridSod(Tube, Sod):

@@ -1,0 +1,49 @@
+"""A blast with particles at its front as a user runs it: balances, shock.csv, pictures, restart, threads, what is refused."""
+import unittest
+
+from ejecta_run import SOURCE, RunTest, Snapshot, Table, ejecta, settings, summary
+
+BLAST = SOURCE / "inputs" / "blast_1kt.toml"
+VALUES = {"numerics.scheme": "hybrid", "resolution.spacing": "40 cm", "boundary.x_min": "symmetry",
+          "boundary.y_min": "symmetry", "boundary.min": '["0 m", "0 m"]', "time.end": "120 us", "output.times": "[]",
+          "insitu.frames": 3, "insitu.max_share": 1, "insitu.image_width": 480, "insitu.image_height": 360}
+
+
+class Hybrid(RunTest):
+    def test_a_blast(self):
+        out = self.run_scene(BLAST, "blast", VALUES)
+        end, shock = summary(out), Table(out / "shock.csv")
+        self.assertLess(abs(shock.numbers("radius")[-1] / 12.13 - 1), 0.02)  # ejecta reference
+        self.assertLess(end["mass_error_rel"], 1e-13)
+        self.assertLess(end["momentum_error_rel"], 1e-13)
+        self.assertLess(abs(end["energy_error_rel"]), 1e-13)
+        history = Table(out / "history.csv")
+        self.assertGreater(min(history.numbers("particles")), 500)
+        self.assertGreater(min(history.numbers("zone")), 50)
+        self.assertEqual(len(list((out / "images").glob("slice_*.png"))), 3)
+
+    def test_restart_and_threads_change_no_bit(self):
+        values = VALUES | {"insitu.enabled": "false"}
+        whole = self.run_scene(BLAST, "whole", values, "--threads", 2)
+        parts = self.run_scene(BLAST, "parts", values | {"time.max_steps": 20}, "--threads", 1)
+        result = ejecta("run", BLAST, "--out", parts, "--threads", 1, "--restart", *settings(values))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        a, b = (Snapshot(sorted((out / "checkpoints").glob("*.h5"))[-1]) for out in (whole, parts))
+        for name in ("grid.density", "grid.energy", "mass", "position_0", "velocity_1", "specific_energy"):
+            self.assertEqual(a.column(name), b.column(name), name)
+        self.assertEqual(Table(whole / "history.csv").rows[-1], Table(parts / "history.csv").rows[-1])
+
+    def test_what_is_refused(self):
+        for values, words in (({"hybrid.ratio": 3}, "expected a power of two, got 3"),
+                              ({"gas.material": "iron"}, "only a gas can be given one"),
+                              ({"numerics.density": "continuity"}, "numerics.density: expected summation"),
+                              ({"hybrid.jump": 0}, "hybrid.jump"),
+                              ({"numerics.scheme": "fvm", "hybrid.ratio": 2}, 'expected numerics.scheme = "hybrid" with it')):
+            with self.subTest(words):
+                result = ejecta("check", BLAST, *settings(VALUES | values))
+                self.assertEqual(result.returncode, 2)
+                self.assertIn(words, result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
