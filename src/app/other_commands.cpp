@@ -41,7 +41,7 @@ int check_command(const std::string& scene_file, const std::vector<std::string>&
   for (const auto& package : sim.packages) fmt::print("{}", package->outline());
   fmt::print("set-up\n");
   for (const auto& package : sim.packages)
-    fmt::print("  {:<18} {}\n", fmt::format("{}s", package->element()), package->elements());
+    fmt::print("  {:<18} {}\n", package->name(), package->elements());
   if (sim.clock.time > 0)
     fmt::print("  begins at          {}, with a blast solved in one dimension so far\n",
                format_quantity(sim.clock.time, "s"));

@@ -16,6 +16,7 @@
 #include "scene/units.hpp"
 #include "schemes/kernels.hpp"
 #include "sph/assemble.hpp"
+#include "sph/near_mean.hpp"
 #include "sph/stages.hpp"
 
 namespace ejecta {
@@ -353,13 +354,13 @@ void Hybrid<Dim>::persist(Archive& archive) {
   std::int64_t steps = static_cast<std::int64_t>(particle_steps_);
   archive.integer("particle_steps", steps);
   particle_steps_ = static_cast<double>(steps);
-  std::vector<std::int32_t> parts;
-  for (const Part part : zone_.parts()) parts.push_back(static_cast<std::int32_t>(part));
-  parts.resize(archive.size(parts.size()));
-  archive.labels("zone", parts);
+  saved_zone_.clear();
+  for (const Part part : zone_.parts()) saved_zone_.push_back(static_cast<std::int32_t>(part));
+  saved_zone_.resize(archive.size(saved_zone_.size()));
+  archive.labels("zone", saved_zone_);
   if (!archive.reads()) return;
   zone_.parts().clear();
-  for (const std::int32_t part : parts) zone_.parts().push_back(static_cast<Part>(part));
+  for (const std::int32_t part : saved_zone_) zone_.parts().push_back(static_cast<Part>(part));
 }
 
 template <int Dim>
@@ -369,19 +370,11 @@ std::optional<double> Hybrid<Dim>::pressure_at(const Vec<Dim>& x) const {
   const Box<Dim>& box = grid_.box();
   const std::size_t cell = cell_of(box, x);
   if (zone_[cell] != Part::active) return by_grid;
-  const Particles<Dim>& p = particles_->particles;
-  double sum = 0, weights = 0;
+  NearMean<Dim> mean(particles_->particles, x);
   for_cells_near<Dim>(box, box.cell(cell), 1, [&](std::size_t near, int) {
-    for (std::uint32_t k = first_[near]; k < first_[near + 1]; ++k) {
-      const std::size_t i = in_cells_[k];
-      const double q = (p.vector(Field::position, i) - x).norm() / p.column(Field::smoothing_length)[i];
-      if (q >= 1) continue;
-      const double weight = (1 - q) * (1 - q) * (1 + 2 * q) * p.column(Field::mass)[i] / p.column(Field::density)[i];
-      sum += weight * p.column(Field::pressure)[i];
-      weights += weight;
-    }
+    for (std::uint32_t k = first_[near]; k < first_[near + 1]; ++k) mean.add(in_cells_[k]);
   });
-  return weights > 0 ? std::optional(sum / weights) : by_grid;
+  return mean.pressure(*by_grid);
 }
 
 template <int Dim>

@@ -31,7 +31,7 @@ class Hybrid final : public Package {
   Kept kept() const override { return grid_.kept(); }
   bool is_loaded() const override { return true; }
   void persist(Archive& archive) override;
-  std::vector<Package*> parts() const override { return {&grid_, particles_.get()}; }
+  std::vector<Package*> parts() override { return {&grid_, particles_.get()}; }
   Quantities quantities() const override;
   std::string outline() const override;
   std::vector<Remark> remarks() const override { return grid_.remarks(); }
@@ -74,7 +74,7 @@ class Hybrid final : public Package {
 
   Scene scene_;
   HybridSettings settings_;
-  mutable Grid<Dim> grid_;
+  Grid<Dim> grid_;
   Zone<Dim> zone_;
   std::unique_ptr<Sph<Dim>> particles_;
   std::optional<CellLines<Dim>> before_, after_;  ///< the grid at the ends of the present step
@@ -82,6 +82,7 @@ class Hybrid final : public Package {
   double particle_steps_ = 0;                     ///< particles that have been advanced, all steps added
   mutable std::vector<std::uint32_t> first_, in_cells_;  ///< particles by cell: those of cell c from first_[c] on
   mutable std::vector<double> shown_zone_;
+  std::vector<std::int32_t> saved_zone_;  ///< what an archive is shown must outlive it
 };
 
 }  // namespace ejecta

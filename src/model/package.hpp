@@ -78,7 +78,7 @@ class Package {
   virtual std::size_t bytes() const = 0;     ///< memory
 
   /// Solvers that it drives: they are saved and shown like those of the run, which does not step them itself.
-  virtual std::vector<Package*> parts() const { return {}; }
+  virtual std::vector<Package*> parts() { return {}; }
 
   Clock clock;
   Totals initial;         ///< conserved() at the start

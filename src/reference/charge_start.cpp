@@ -19,7 +19,9 @@ namespace {
 constexpr double resolved = 16;
 /// Spacings that must be free around the wave: the methods look that far.
 constexpr double clearance = 3;
-/// A thousandth of a charge less, where a wave of a hundred times its radius has long forgotten its cells.
+/// Of the run that may go by before it begins.
+constexpr double most_of_the_run = 0.1;
+/// As the reference has by itself.
 constexpr double cells_of_a_charge = 100;
 
 /// How far a wave from the centre of the charge may come before it meets a face or another body [m].
@@ -98,7 +100,7 @@ std::optional<RadialState> charge_start(const Scene& scene, const std::vector<Ma
   const RadialProblem problem = radial_problem(alone, one);
   const double spacing = charge.radius / cells_of_a_charge;
   RadialFlow flow = start_flow(problem, spacing);
-  double latest = asked ? charge.start : scene.time_end;
+  double latest = asked ? charge.start : most_of_the_run * scene.time_end;
   if (!asked)
     for (const double t : scene.output.times) latest = std::min(latest, t);
   // Slowly at first, then by a twentieth of the time that has passed.

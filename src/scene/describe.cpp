@@ -53,7 +53,8 @@ void describe(Describer& d, Charge& c) {
   d.text("material", c.material, "else that of the gas around it");
   d.number("start", c.start, "s", non_negative,
            "the run begins then, with what a solution in one dimension says; 0: with the charge itself; else, where there "
-           "is room, when the shock has come 16 spacings, at the latest at the first of output.times");
+           "is room, when the shock has come 16 spacings, at the latest at the first of output.times and after a tenth of the "
+           "run");
 }
 
 void describe(Describer& d, Gas& g) {

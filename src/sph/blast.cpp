@@ -4,6 +4,7 @@
 
 #include "model/find_blast.hpp"
 #include "scene/shape_geometry.hpp"
+#include "sph/near_mean.hpp"
 #include "sph/sph.hpp"
 
 namespace ejecta {
@@ -40,9 +41,8 @@ class Bins {
     for (std::size_t i = 0; i < p.size(); ++i) in_[next[bin[i]]++] = static_cast<std::uint32_t>(i);
   }
 
-  /// Mean pressure of those within their smoothing length of x; `otherwise` if there are none.
   double pressure(const Vec<Dim>& x, double otherwise) const {
-    double sum = 0, weights = 0;
+    NearMean<Dim> mean(p_, x);
     std::array<int, Dim> low, high, at;
     for (int a = 0; a < Dim; ++a) {
       const auto k = static_cast<std::size_t>(a);
@@ -53,14 +53,7 @@ class Bins {
     for (bool more = true; more;) {
       std::size_t b = 0;
       for (std::size_t a = Dim; a-- > 0;) b = b * static_cast<std::size_t>(counts_[a]) + static_cast<std::size_t>(at[a]);
-      for (std::uint32_t k = first_[b]; k < first_[b + 1]; ++k) {
-        const std::size_t i = in_[k];
-        const double q = (p_.vector(Field::position, i) - x).norm() / p_.column(Field::smoothing_length)[i];
-        if (q >= 1) continue;
-        const double weight = (1 - q) * (1 - q) * (1 + 2 * q) * p_.column(Field::mass)[i] / p_.column(Field::density)[i];
-        sum += weight * p_.column(Field::pressure)[i];
-        weights += weight;
-      }
+      for (std::uint32_t k = first_[b]; k < first_[b + 1]; ++k) mean.add(in_[k]);
       std::size_t a = 0;
       while (a < Dim && ++at[a] > high[a]) {
         at[a] = low[a];
@@ -68,7 +61,7 @@ class Bins {
       }
       more = a < Dim;
     }
-    return weights > 0 ? sum / weights : otherwise;
+    return mean.pressure(otherwise);
   }
 
  private:

@@ -1,7 +1,7 @@
 """The commands beside `run`: check, describe, info, movie, replay, and the help of each."""
 import re
 import unittest
-from ejecta_run import IMPACT_2D, IMPACT_3D, SOD, RunTest, ejecta, movie_frames, settings
+from ejecta_run import IMPACT_2D, IMPACT_3D, SOD, SOURCE, RunTest, ejecta, movie_frames, settings
 
 SECTION = re.compile(r"^\[+([\w.<>]+)\]+ ")
 KEY = re.compile(r"^  (\S+) +\S")
@@ -58,16 +58,21 @@ class Commands(RunTest):
         self.assertTrue({"scene", "resolution", "time", "bodies", "numerics", "insitu", "random", "run"} <= set(sections))
         keys = [f"{section}.{key}" for section, keys in sections.items() for key in keys]
         self.assertGreater(len(keys), 40)
-        defaults = {}
+        defaults, of_grids = {}, {}
         for path in keys:
             section, key = path.rsplit(".", 1)
             default = re.search(r"; default (.+)$", sections[section][key])
             # Bodies have names; the dimension belongs to their shapes; a scene need not be a blast, nor on a grid.
-            others = (section in ("bodies", "bodies.profile", "insitu.ranges", "charge", "gas", "grid")
+            others = (section in ("bodies", "bodies.profile", "insitu.ranges", "charge", "gas", "grid", "hybrid")
                       or section.startswith("materials"))
             if default and not others and path != "scene.dimension":
                 defaults[path] = default[1].strip('"')
+            if default and section in ("grid", "hybrid"):
+                of_grids[path] = default[1].strip('"')
         self.assertGreater(len(defaults), 30)
+        self.assertGreater(len(of_grids), 8)
+        result = ejecta("check", SOURCE / "inputs" / "blast_hybrid.toml", *settings(of_grids))
+        self.assertEqual(result.returncode, 0, result.stderr)
         result = ejecta("check", IMPACT_2D, *settings(defaults))
         self.assertEqual(result.returncode, 0, result.stderr)
         for name in ("scene.name", "resolution.spacing", "time.end", "numerics.scheme", "numerics.precision",

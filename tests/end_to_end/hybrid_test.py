@@ -4,7 +4,7 @@ import unittest
 from ejecta_run import SOURCE, RunTest, Snapshot, Table, ejecta, settings, summary
 
 BLAST = SOURCE / "inputs" / "blast_1kt.toml"
-VALUES = {"numerics.scheme": "hybrid", "resolution.spacing": "40 cm", "boundary.x_min": "symmetry",
+VALUES = {"numerics.scheme": "hybrid", "resolution.spacing": "40 cm", "charge.start": "50 us", "boundary.x_min": "symmetry",
           "boundary.y_min": "symmetry", "boundary.min": '["0 m", "0 m"]', "time.end": "120 us", "output.times": "[]",
           "insitu.frames": 3, "insitu.max_share": 1, "insitu.image_width": 480, "insitu.image_height": 360}
 

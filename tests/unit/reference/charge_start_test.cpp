@@ -88,6 +88,12 @@ TEST(ChargeStart, IsNoLaterThanTheFirstOutput) {
   EXPECT_EQ(b.start->time, 12e-6);
 }
 
+TEST(ChargeStart, LeavesTheRunSomethingToDo) {
+  Blast b(blast("", box));
+  b.scene.time_end = 100e-6;
+  EXPECT_NEAR(charge_start(b.scene, b.materials.list)->time, 10e-6, 1e-12);
+}
+
 TEST(ChargeStart, LeavesAloneWhatItCannotOrNeedNot) {
   EXPECT_FALSE(Blast(blast("start = \"0 s\"\n", box)).start);
   // As wide as sixteen spacings.

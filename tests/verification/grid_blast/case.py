@@ -45,11 +45,11 @@ class GridBlast(GridCase):
         Bound("shock radius at 1000 us", "relative", {20: 0.0041, 40: 0.0021, 80: 0.00105}, 0.85),
         Bound("density at 56 us", "L1", {20: 0.44, 40: 0.24, 80: 0.12}, why=EARLY),
         Bound("density at 100 us", "L1", {20: 0.3, 40: 0.17, 80: 0.085}, why=EARLY),
-        Bound("density at 225 us", "L1", {20: 0.181, 40: 0.104, 80: 0.052}, 0.65),
+        Bound("density at 225 us", "L1", {20: 0.181, 40: 0.104, 80: 0.052}, 0.5),
         Bound("density at 631 us", "L1", {20: 0.078, 40: 0.039, 80: 0.019}, 0.85),
         Bound("density at 1000 us", "L1", {20: 0.074, 40: 0.038, 80: 0.019}, 0.8),
         Bound("spread of the radius", "relative", {20: 0.002, 40: 0.00076, 80: 0.00057}, 0.95),
-        Bound("peak density", "relative", {20: 0.155, 40: 0.087, 80: 0.049}, 0.65),
+        Bound("peak density", "relative", {20: 0.155, 40: 0.087, 80: 0.049}, 0.5),
     )
 
     def settings(self, resolution):
