@@ -40,7 +40,8 @@ Eigen::MatrixXd potentials(const std::vector<Face>& faces, const Eigen::MatrixXd
   Eigen::SparseMatrix<double> matrix(n, n);
   matrix.setFromTriplets(entries.begin(), entries.end());
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(matrix);
-  if (solver.info() != Eigen::Success) throw SimulationError("hybrid: no fluxes lead the grid to what the particles say");
+  if (solver.info() != Eigen::Success)
+    throw SimulationError("hybrid: no fluxes lead the grid to what the particles say");
   return solver.solve(given);
 }
 
@@ -118,7 +119,8 @@ CellChanges<Dim> correct_by_fluxes(const Grid<Dim>& grid, const std::vector<std:
   std::vector<std::array<double, C>> measures(all);
   for (std::size_t k = 0; k < all; ++k) measures[k] = measure(k);
   for (std::size_t f = 0; f < faces.size(); ++f) {
-    const auto &from = measures[static_cast<std::size_t>(faces[f].from)], &to = measures[static_cast<std::size_t>(faces[f].to)];
+    const auto &from = measures[static_cast<std::size_t>(faces[f].from)],
+               &to = measures[static_cast<std::size_t>(faces[f].to)];
     for (std::size_t c = 0; c < C; ++c)
       if (std::abs(flux[f][c]) < round_off * std::max(from[c], to[c])) flux[f][c] = 0;
   }
@@ -154,8 +156,10 @@ CellChanges<Dim> correct_by_fluxes(const Grid<Dim>& grid, const std::vector<std:
 }
 
 template CellChanges<2> correct_by_fluxes<2>(const Grid<2>&, const std::vector<std::size_t>&,
-                                             const std::vector<std::int32_t>&, const std::vector<std::array<double, 4>>&);
+                                             const std::vector<std::int32_t>&,
+                                             const std::vector<std::array<double, 4>>&);
 template CellChanges<3> correct_by_fluxes<3>(const Grid<3>&, const std::vector<std::size_t>&,
-                                             const std::vector<std::int32_t>&, const std::vector<std::array<double, 5>>&);
+                                             const std::vector<std::int32_t>&,
+                                             const std::vector<std::array<double, 5>>&);
 
 }  // namespace ejecta

@@ -1,19 +1,20 @@
 #pragma once
-/// How a grid follows what particles have found without losing anything: by fluxes between its cells, on top of its own.
+/// How a grid follows what particles have found without losing anything: by fluxes between its cells, on top of its
+/// own.
 ///
 /// After a step of its own the grid holds U*, and particles say that active cells hold D. Whatever is added to one cell
 /// is taken from the next one through the face that they share: of all fluxes f that lead from U* to D in every active
 /// cell,
 ///     sum over its faces of f = V (U* - D),
-/// those are taken for which the sum of (f/s)^2 over all faces is least. s is 1 within the wave, and falls with pressure
-/// times sound speed of the quieter cell beside a face where gas is at rest: corrections stay near what they correct, and
-/// leave gas ahead of a shock alone. (With s as what may pass a face anyway, corrections follow dense shells for long ways:
-/// 1 kt at 20 cm then had 5.8 % more energy along the axes at 225 us than in the mean, instead of 3.6 %.) The cells next to
-/// the active ones get what comes through their common faces, which is what makes the whole conservative [the refluxing of
-/// adaptive meshes, Berger & Colella 1989, with fluxes that are not known but by what they did].
+/// those are taken for which the sum of (f/s)^2 over all faces is least. s is 1 within the wave, and falls with
+/// pressure times sound speed of the quieter cell beside a face where gas is at rest: corrections stay near what they
+/// correct, and leave gas ahead of a shock alone. (With s as what may pass a face anyway, corrections follow dense
+/// shells for long ways, and mass and energy wander along a front.) The cells next to the active ones get what comes
+/// through their common faces, which is what makes the whole conservative [the refluxing of adaptive meshes, Berger &
+/// Colella 1989, with fluxes that are not known but by what they did].
 ///
-/// With one number phi a cell, 0 outside of the active ones, f = s^2 (phi_a - phi_b) from a to b [Lagrange's multipliers]:
-/// a sparse, symmetric, positive definite system for all quantities.
+/// With one number phi a cell, 0 outside of the active ones, f = s^2 (phi_a - phi_b) from a to b [Lagrange's
+/// multipliers]: a sparse, symmetric, positive definite system for all quantities.
 #include "hybrid/zone.hpp"
 
 namespace ejecta {

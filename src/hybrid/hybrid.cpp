@@ -74,13 +74,13 @@ std::vector<Stage<Dim>> Hybrid<Dim>::stages(const std::vector<Material>& materia
   using enum Field;
   std::vector<Stage<Dim>> list;
   const auto add = [&](const char* name, std::vector<Field> reads, std::vector<Field> writes, auto work) {
-    list.push_back({{.run = [this, work](Sph<Dim>& sph) { (this->*work)(sph); }}, name, std::move(reads), std::move(writes)});
+    list.push_back(
+        {{.run = [this, work](Sph<Dim>& sph) { (this->*work)(sph); }}, name, std::move(reads), std::move(writes)});
   };
   for (Stage<Dim>& stage : choose_stages<Dim>(scene_of_particles(scene_), materials)) {
     const std::string name = stage.name;
     list.push_back(std::move(stage));
-    if (name == "neighbours")
-      add("led motion", {position}, {velocity, specific_energy}, &Hybrid::lead_motion);
+    if (name == "neighbours") add("led motion", {position}, {velocity, specific_energy}, &Hybrid::lead_motion);
     if (name == "equation of state")
       add("led state", {position, mass, density}, {mass, density, pressure, sound_speed, smoothing_length},
           &Hybrid::lead_state);
@@ -154,9 +154,9 @@ void Hybrid<Dim>::lead_motion(Sph<Dim>& sph) const {
   });
 }
 
-/// Led particles have the density of the grid. Those with all their neighbours take the mass for that in the volume that
-/// these leave them, so that nothing changes when they are let go, however they lie: masses of particles are in no ledger.
-/// Sums at the rim are cut off: there it is the volume that follows from the mass.
+/// Led particles have the density of the grid. Those with all their neighbours take the mass for that in the volume
+/// that these leave them, so that nothing changes when they are let go, however they lie: masses of particles are in no
+/// ledger. Sums at the rim are cut off: there it is the volume that follows from the mass.
 template <int Dim>
 void Hybrid<Dim>::lead_state(Sph<Dim>& sph) const {
   if (!after_) return;
@@ -411,7 +411,8 @@ std::optional<BlastFront> Hybrid<Dim>::blast() const {
   if (!blast) return blast;
   blast->peak_density = *std::ranges::max_element(grid_.cells()[0]);
   for (std::size_t i = 0; i < particles_->particles.size(); ++i)
-    if (part_of(i) == Part::active) blast->peak_density = std::max(blast->peak_density, particles_->particles.column(Field::density)[i]);
+    if (part_of(i) == Part::active)
+      blast->peak_density = std::max(blast->peak_density, particles_->particles.column(Field::density)[i]);
   return blast;
 }
 
@@ -420,8 +421,10 @@ Quantities Hybrid<Dim>::quantities() const {
   Quantities list;
   for (const Quantity& q : grid_.quantities())
     if (!q.name.starts_with("shock")) list.push_back(q);
-  list.push_back({"particles", "1", static_cast<std::int64_t>(particles_->elements()), "in the zone and in the belt around it"});
-  list.push_back({"zone", "1", static_cast<std::int64_t>(zone_.count(Part::active)), "cells that follow their particles"});
+  list.push_back(
+      {"particles", "1", static_cast<std::int64_t>(particles_->elements()), "in the zone and in the belt around it"});
+  list.push_back(
+      {"zone", "1", static_cast<std::int64_t>(zone_.count(Part::active)), "cells that follow their particles"});
   if (!scene_.charge || !scene_.gas) return list;
   const BlastFront now = blast().value_or(BlastFront{});
   list.push_back({"shock radius", "m", now.radius, "mean over directions; 0 before there is a shock", true});

@@ -4,9 +4,9 @@
 /// The grid owns all mass, momentum and energy. Where a front is, its cells are filled with particles twice as fine or
 /// more, which are carried on by the Riemann fluxes of gsph in steps of their own within each step of the grid; around
 /// them a belt of particles moves with the gas of the grid. Afterwards the cells that particles fill are led to what
-/// those say, by fluxes that take from one cell what they give to the next (flux_correction.hpp): whatever the particles
-/// do, nothing is lost. Particles come into being from what the grid holds, and vanish without leaving a trace in the
-/// ledger.
+/// those say, by fluxes that take from one cell what they give to the next (flux_correction.hpp): whatever the
+/// particles do, nothing is lost. Particles come into being from what the grid holds, and vanish without leaving a
+/// trace in the ledger.
 #include <functional>
 #include <memory>
 #include <optional>
@@ -51,8 +51,8 @@ class Hybrid final : public Package {
   /// Pressure at a point [Pa], a mean over the particles near it where they move freely; nothing beyond the box. Of the
   /// state at the last call of look().
   std::optional<double> pressure_at(const Vec<Dim>& x) const;
-  /// State at a point: that of the nearest particle where they move freely, else that of the grid; nothing beyond the box.
-  /// Of the state at the last call of look().
+  /// State at a point: that of the nearest particle where they move freely, else that of the grid; nothing beyond the
+  /// box. Of the state at the last call of look().
   std::optional<CellState<Dim>> at(const Vec<Dim>& x) const;
   /// Sorts particles into cells, for questions about points.
   void look() const;
@@ -77,9 +77,9 @@ class Hybrid final : public Package {
   Grid<Dim> grid_;
   Zone<Dim> zone_;
   std::unique_ptr<Sph<Dim>> particles_;
-  std::optional<CellLines<Dim>> before_, after_;  ///< the grid at the ends of the present step
-  double began_ = 0, span_ = 0;                   ///< of that step [s]
-  double particle_steps_ = 0;                     ///< particles that have been advanced, all steps added
+  std::optional<CellLines<Dim>> before_, after_;         ///< the grid at the ends of the present step
+  double began_ = 0, span_ = 0;                          ///< of that step [s]
+  double particle_steps_ = 0;                            ///< particles that have been advanced, all steps added
   mutable std::vector<std::uint32_t> first_, in_cells_;  ///< particles by cell: those of cell c from first_[c] on
   mutable std::vector<double> shown_zone_;
   std::vector<std::int32_t> saved_zone_;  ///< what an archive is shown must outlive it

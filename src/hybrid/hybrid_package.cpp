@@ -15,7 +15,7 @@ namespace {
 
 /// Measured in 2D with an ideal gas, one core with AVX-512: steps of particles, the work between steps among them.
 constexpr double particle_steps_per_s = 0.55e6;
-constexpr double steps_in_one = 8;  ///< of particles, within one of the grid
+constexpr double steps_in_one = 8;             ///< of particles, within one of the grid
 constexpr double share_of_other_scenes = 0.3;  ///< of the box that is filled with particles, where there is no blast
 
 /// Particles at the end, when most of them are there: a shell of six times the density, that of the belt besides.
@@ -52,7 +52,8 @@ Estimate estimate(const Scene& scene, const std::vector<Material>& materials) {
 
 PackageKind hybrid_package() {
   PackageKind kind;
-  kind.section = {"hybrid", "particles where fronts are, on a grid", [] { return std::make_shared<HybridSettings>(); }, {"hybrid"}};
+  kind.section = {
+      "hybrid", "particles where fronts are, on a grid", [] { return std::make_shared<HybridSettings>(); }, {"hybrid"}};
   kind.set_up = [](const Scene& scene, const std::vector<Material>& materials) -> std::unique_ptr<Package> {
     if (scene.dimension == 2) return std::make_unique<Hybrid<2>>(scene, materials);
     return std::make_unique<Hybrid<3>>(scene, materials);

@@ -18,14 +18,16 @@ template <int Dim>
 std::vector<Restricted<Dim>> restrict_particles(const Particles<Dim>& p, const Box<Dim>& box,
                                                 const std::vector<std::int32_t>& place, std::size_t cells) {
   std::vector<Restricted<Dim>> all(cells);
-  const auto mass = p.column(Field::mass), density = p.column(Field::density), energy = p.column(Field::specific_energy);
+  const auto mass = p.column(Field::mass), density = p.column(Field::density),
+             energy = p.column(Field::specific_energy);
   for (std::size_t i = 0; i < p.size(); ++i) {
     const double edge = (Dim == 2 ? std::sqrt(mass[i] / density[i]) : std::cbrt(mass[i] / density[i])) / box.spacing;
     const Vec<Dim> v = p.vector(Field::velocity, i);
     std::array<std::array<Extent, 3>, Dim> extents;
     std::array<int, Dim> counts;
     for (std::size_t a = 0; a < Dim; ++a) {
-      const double x = (p.column(Field::position, static_cast<int>(a))[i] - box.corner[static_cast<int>(a)]) / box.spacing;
+      const double x =
+          (p.column(Field::position, static_cast<int>(a))[i] - box.corner[static_cast<int>(a)]) / box.spacing;
       const double n = box.cells[a], low = x - 0.5 * edge, high = x + 0.5 * edge;
       int count = 0;
       extents[a][static_cast<std::size_t>(count++)] = {low, high, 1};

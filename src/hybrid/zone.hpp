@@ -19,7 +19,9 @@ class Zone {
  public:
   /// `reach`: cells that particles see. There are twice as many around the active ones.
   Zone(const HybridSettings& settings, double reach)
-      : settings_(settings), inner_(static_cast<int>(std::ceil(reach))), depth_(static_cast<int>(std::ceil(2 * reach))) {}
+      : settings_(settings),
+        inner_(static_cast<int>(std::ceil(reach))),
+        depth_(static_cast<int>(std::ceil(2 * reach))) {}
 
   /// Around the fronts that are there now [one value a cell of the grid's box].
   void update(const Grid<Dim>& grid);

@@ -104,8 +104,8 @@ std::optional<RadialState> charge_start(const Scene& scene, const std::vector<Ma
   if (!asked)
     for (const double t : scene.output.times) latest = std::min(latest, t);
   // Slowly at first, then by a twentieth of the time that has passed.
-  for (double step = 1e-3 * charge.radius / std::sqrt(body->specific_energy); flow.time() < latest && reach(flow) < wanted;
-       step = std::max(step, 0.05 * flow.time()))
+  for (double step = 1e-3 * charge.radius / std::sqrt(body->specific_energy);
+       flow.time() < latest && reach(flow) < wanted; step = std::max(step, 0.05 * flow.time()))
     flow.advance_to(std::min(latest, flow.time() + step));
   if (asked && reach(flow) >= wanted)
     refuse(fmt::format("expected a time at which the wave has met neither faces nor bodies, {} away, got {}",

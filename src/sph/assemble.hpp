@@ -9,8 +9,8 @@
 
 namespace ejecta {
 
-/// Columns allocated for what the stages name and filled by the bodies of the placements; `lay` then gives particles the
-/// states that they are to have, before all stages run once. Throws SimulationError if that fails.
+/// Columns allocated for what the stages name and filled by the bodies of the placements; `lay` then gives particles
+/// the states that they are to have, before all stages run once. Throws SimulationError if that fails.
 template <int Dim>
 std::unique_ptr<Sph<Dim>> assemble(const Scene& scene, const std::vector<Material>& materials,
                                    std::vector<Stage<Dim>> stages, const std::vector<Placement<Dim>>& placements,

@@ -52,7 +52,8 @@ class Bins {
     }
     for (bool more = true; more;) {
       std::size_t b = 0;
-      for (std::size_t a = Dim; a-- > 0;) b = b * static_cast<std::size_t>(counts_[a]) + static_cast<std::size_t>(at[a]);
+      for (std::size_t a = Dim; a-- > 0;)
+        b = b * static_cast<std::size_t>(counts_[a]) + static_cast<std::size_t>(at[a]);
       for (std::uint32_t k = first_[b]; k < first_[b + 1]; ++k) mean.add(in_[k]);
       std::size_t a = 0;
       while (a < Dim && ++at[a] > high[a]) {

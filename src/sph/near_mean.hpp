@@ -3,8 +3,8 @@
 
 namespace ejecta {
 
-/// Mean pressure over the particles within their smoothing length of a point, by their volumes and a weight that falls to
-/// zero there (Shepard 1968).
+/// Mean pressure over the particles within their smoothing length of a point, by their volumes and a weight that falls
+/// to zero there (Shepard 1968).
 template <int Dim>
 class NearMean {
  public:

@@ -31,25 +31,30 @@ void take_steps(Package& package, const Scene& scene, int steps) {
   for (int k = 0; k < steps; ++k) step(package, scene, std::numeric_limits<double>::infinity());
 }
 
-/// Gas in a periodic box of 2.4 m about the origin, cells of 0.1 m, particles half or a quarter of that; sound speed 1 m/s.
+/// Gas in a periodic box of 2.4 m about the origin, cells of 0.1 m, particles half or a quarter of that; sound speed 1
+/// m/s.
 std::string box(const std::string& profile, int dimension = 2, int ratio = 4) {
-  return "[scene]\nname = \"box\"\ndimension = " + std::to_string(dimension) +
-         "\n[resolution]\nspacing = \"" + std::to_string(0.1 / ratio) + R"( m"
+  return "[scene]\nname = \"box\"\ndimension = " + std::to_string(dimension) + "\n[resolution]\nspacing = \"" +
+         std::to_string(0.1 / ratio) + R"( m"
 [time]
 end = "10 s"
 [numerics]
 scheme = "hybrid"
 [hybrid]
-ratio = )" + std::to_string(ratio) + R"(
+ratio = )" +
+         std::to_string(ratio) + R"(
 [[bodies]]
 name = "gas"
 material = "air"
-shape = ")" + (dimension == 2 ? "rectangle" : "box") + R"("
-size = [)" + (dimension == 2 ? R"("2.4 m", "2.4 m")" : R"("2.4 m", "2.4 m", "2.4 m")") + R"(]
+shape = ")" +
+         (dimension == 2 ? "rectangle" : "box") + R"("
+size = [)" +
+         (dimension == 2 ? R"("2.4 m", "2.4 m")" : R"("2.4 m", "2.4 m", "2.4 m")") + R"(]
 density = "1.4 kg/m^3"
 pressure = "1 Pa"
 [bodies.profile]
-)" + profile + R"(
+)" + profile +
+         R"(
 [boundary]
 x = "periodic"
 y = "periodic"
@@ -114,8 +119,9 @@ TEST(Hybrid, AStreamPassesThroughTheZone) {
     const char* velocity;
     double largest, mean;  ///< measured and half of it more
   };
-  for (const Stream& stream : {Stream{"velocity = [\"0.4\", \"0\"]", 0.08, 0.017}, Stream{"velocity = [\"2\", \"0\"]", 0.026, 0.0055},
-                               Stream{"velocity = [\"1.732\", \"1\"]", 0.04, 0.006}}) {
+  for (const Stream& stream :
+       {Stream{"velocity = [\"0.4\", \"0\"]", 0.08, 0.017}, Stream{"velocity = [\"2\", \"0\"]", 0.026, 0.0055},
+        Stream{"velocity = [\"1.732\", \"1\"]", 0.04, 0.006}}) {
     const auto hybrid = make_hybrid<2>(box(stream.velocity, 2, 2));
     hybrid->hold_zone(in_disc<2>);
     take_steps(*hybrid, hybrid->particles().scene, 60);
@@ -131,8 +137,8 @@ TEST(Hybrid, AStreamPassesThroughTheZone) {
 TEST(Hybrid, SoundPassesThroughTheZone) {
   const std::string pulse = "0.1 * exp(-0.5 * ((x + 0.5) / 0.15)^2)";
   // A simple wave to the right: density and pressure go with the velocity at constant entropy.
-  const auto hybrid = make_hybrid<2>(box("velocity = [\"" + pulse + "\", \"0\"]\ndensity = \"1.4 * (1 + 0.2 * " + pulse +
-                                         ")^5\"\npressure = \"(1 + 0.2 * " + pulse + ")^7\"\n"));
+  const auto hybrid = make_hybrid<2>(box("velocity = [\"" + pulse + "\", \"0\"]\ndensity = \"1.4 * (1 + 0.2 * " +
+                                         pulse + ")^5\"\npressure = \"(1 + 0.2 * " + pulse + ")^7\"\n"));
   hybrid->hold_zone([](const Vec<2>& x) { return std::abs(x[0]) < 0.3; });
   while (hybrid->clock.time < 1) take_steps(*hybrid, hybrid->particles().scene, 1);
   double arrived = 0, back = 0;
@@ -218,7 +224,8 @@ TEST(Restriction, GivesWhatParticlesHave) {
   std::vector<std::int32_t> place(16);
   std::iota(place.begin(), place.end(), 0);
   lay(0);
-  for (const auto& r : restrict_particles(p, cells, {-1, -1, -1, -1, -1, 0, 1, -1, -1, -1, -1, -1, -1, -1, -1, -1}, 2)) {
+  for (const auto& r :
+       restrict_particles(p, cells, {-1, -1, -1, -1, -1, 0, 1, -1, -1, -1, -1, -1, -1, -1, -1, -1}, 2)) {
     EXPECT_NEAR(r.volume, 1, 1e-12);
     EXPECT_NEAR(r.sum[0], 2, 1e-12);
   }

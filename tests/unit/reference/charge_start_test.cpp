@@ -101,7 +101,10 @@ TEST(ChargeStart, LeavesAloneWhatItCannotOrNeedNot) {
   fine.scene.spacing = 0.05;
   EXPECT_FALSE(charge_start(fine.scene, fine.materials.list));
   // A wall, a body.
-  EXPECT_FALSE(Blast(blast("", "[boundary]\nmin = [\"-0.4 m\", \"-50 m\"]\nmax = [\"50 m\", \"50 m\"]\nx_min = \"reflecting\"\n")).start);
+  EXPECT_FALSE(
+      Blast(
+          blast("", "[boundary]\nmin = [\"-0.4 m\", \"-50 m\"]\nmax = [\"50 m\", \"50 m\"]\nx_min = \"reflecting\"\n"))
+          .start);
   const std::string block = R"([[bodies]]
 name = "block"
 material = "air"
@@ -115,15 +118,20 @@ pressure = "102 kPa"
 }
 
 TEST(ChargeStart, GoesOnBesideAPlaneOfSymmetryThroughTheCharge) {
-  EXPECT_TRUE(Blast(blast("", "[boundary]\nmin = [\"1 m\", \"-50 m\"]\nmax = [\"50 m\", \"50 m\"]\nx_min = \"symmetry\"\n")).start);
+  EXPECT_TRUE(
+      Blast(blast("", "[boundary]\nmin = [\"1 m\", \"-50 m\"]\nmax = [\"50 m\", \"50 m\"]\nx_min = \"symmetry\"\n"))
+          .start);
 }
 
 TEST(ChargeStart, RefusesATimeAtWhichTheWaveHasMetSomething) {
-  EXPECT_NE(refusal(blast("start = \"2 ms\"\n", box)).find("charge.start: expected a time before the end, 1 ms, got 2 ms"),
-            std::string::npos);
-  const std::string wall = "[boundary]\nmin = [\"-4 m\", \"-50 m\"]\nmax = [\"50 m\", \"50 m\"]\nx_min = \"reflecting\"\n";
-  EXPECT_NE(refusal(blast("start = \"100 us\"\n", wall)).find("charge.start: expected a time at which the wave has met"),
-            std::string::npos);
+  EXPECT_NE(
+      refusal(blast("start = \"2 ms\"\n", box)).find("charge.start: expected a time before the end, 1 ms, got 2 ms"),
+      std::string::npos);
+  const std::string wall =
+      "[boundary]\nmin = [\"-4 m\", \"-50 m\"]\nmax = [\"50 m\", \"50 m\"]\nx_min = \"reflecting\"\n";
+  EXPECT_NE(
+      refusal(blast("start = \"100 us\"\n", wall)).find("charge.start: expected a time at which the wave has met"),
+      std::string::npos);
 }
 
 }  // namespace
