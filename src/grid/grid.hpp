@@ -59,6 +59,8 @@ class Grid final : public Package {
   /// From now on also those tiles in which nothing can change: for tests.
   void sweep_all_tiles() { skips_quiet_ = false; }
   std::optional<BlastFront> blast() const override;
+  /// All of its quantities but those of a blast.
+  Quantities quantities_of_cells() const;
   /// Pressure at a point [Pa], linear between the centres of cells; nothing beyond the box.
   std::optional<double> pressure_at(const Vec<Dim>& x) const;
   /// Lets the box grow if a wave comes near its faces, as every step does first.

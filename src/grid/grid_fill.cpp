@@ -81,8 +81,9 @@ Box<Dim> box_of(const Scene& scene, double reached) {
 
 template <int Dim>
 Conserved<Dim> fill_cells(const Scene& scene, const std::vector<Material>& materials, const Box<Dim>& box,
-                          const RadialState* around) {
-  const MatterAt<Dim> matter(scene, materials, scene.spacing, around);
+                          const RadialState* start) {
+  const MatterAt<Dim> matter(scene, materials, scene.spacing, start);
+  const bool formulas = matter.varies();
   Conserved<Dim> cells;
   for (auto& column : cells) column.resize(box.size());
   const auto refuse = [&](const Vec<Dim>& x) {
@@ -94,7 +95,7 @@ Conserved<Dim> fill_cells(const Scene& scene, const std::vector<Material>& mater
     const Vec<Dim> centre = box.centre(box.cell(i));
     const auto middle = matter(centre);
     if (!middle) refuse(centre);
-    const bool varies = matter.varies(centre, box.spacing);
+    const bool around = matter.is_around(centre, box.spacing), varies = formulas || around;
     bool mixed = false;
     for_points<Dim>(centre, box.spacing, probes<Dim>, [&](const Vec<Dim>& x) {
       const auto other = matter(x);

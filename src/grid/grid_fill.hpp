@@ -11,11 +11,11 @@ namespace ejecta {
 template <int Dim>
 Box<Dim> box_of(const Scene& scene, double reached = 0);
 
-/// Cells of that box. Where several states meet in a cell it gets what sub-samples of it hold. `around` (may be null)
+/// Cells of that box. Where several states meet in a cell it gets what sub-samples of it hold. `start` (may be null)
 /// takes the place of what the scene says, where it reaches. Throws InputError if a cell is empty.
 template <int Dim>
 Conserved<Dim> fill_cells(const Scene& scene, const std::vector<Material>& materials, const Box<Dim>& box,
-                          const RadialState* around);
+                          const RadialState* start);
 
 /// State of [gas], that of nothing if there is none.
 template <int Dim>

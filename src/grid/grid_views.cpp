@@ -70,7 +70,7 @@ std::optional<double> Grid<Dim>::pressure_at(const Vec<Dim>& x) const {
 }
 
 template <int Dim>
-Quantities Grid<Dim>::quantities() const {
+Quantities Grid<Dim>::quantities_of_cells() const {
   std::vector<double> highest(reduction_blocks, -std::numeric_limits<double>::infinity());
   parallel_blocks(reduction_blocks, 1, [&](std::size_t b, std::size_t) {
     for (std::size_t i = b * box_.size() / reduction_blocks; i < (b + 1) * box_.size() / reduction_blocks; ++i)
@@ -81,11 +81,13 @@ Quantities Grid<Dim>::quantities() const {
                   {"min density", "kg/m^3", least, "lowest of a cell"},
                   {"max density", "kg/m^3", most, "highest of a cell"},
                   {"cells", "1", static_cast<std::int64_t>(box_.size()), "of the grid"}};
-  if (!scene_.charge || !scene_.gas) return list;
-  const BlastFront now = blast().value_or(BlastFront{});
-  list.push_back({"shock radius", "m", now.radius, "mean over directions; 0 before there is a shock", true});
-  list.push_back({"shock radius spread", "m", now.spread, "root mean square over directions"});
-  list.push_back({"shock pressure", "Pa", now.peak_pressure, "largest behind the shock, mean over directions", true});
+  return list;
+}
+
+template <int Dim>
+Quantities Grid<Dim>::quantities() const {
+  Quantities list = quantities_of_cells();
+  if (scene_.charge && scene_.gas) std::ranges::move(quantities_of(blast()), std::back_inserter(list));
   return list;
 }
 
@@ -124,6 +126,8 @@ template std::optional<double> Grid<2>::pressure_at(const Vec<2>&) const;
 template std::optional<double> Grid<3>::pressure_at(const Vec<3>&) const;
 template std::optional<BlastFront> Grid<2>::blast() const;
 template std::optional<BlastFront> Grid<3>::blast() const;
+template Quantities Grid<2>::quantities_of_cells() const;
+template Quantities Grid<3>::quantities_of_cells() const;
 template Quantities Grid<2>::quantities() const;
 template Quantities Grid<3>::quantities() const;
 template std::vector<Channel> Grid<2>::channels(const Asked&) const;

@@ -4,19 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "base/errors.hpp"
+#include "base/parallel.hpp"
 #include "hybrid/flux_correction.hpp"
 #include "hybrid/restriction.hpp"
 #include "material/matter_at.hpp"
-#include "model/find_blast.hpp"
 #include "scene/names.hpp"
-#include "scene/shape_geometry.hpp"
-#include "scene/units.hpp"
 #include "schemes/kernels.hpp"
 #include "sph/assemble.hpp"
-#include "sph/near_mean.hpp"
 #include "sph/stages.hpp"
 
 namespace ejecta {
@@ -25,9 +21,6 @@ namespace {
 
 /// A cell that particles cover less than this says nothing.
 constexpr double least_covered = 0.5;
-/// Particles come where no other one is nearer than this share of the mean of their spacings.
-constexpr double room = 0.9;
-
 Scene scene_of_grid(Scene scene) {
   scene.spacing *= hybrid_settings(scene).ratio;
   return scene;
@@ -41,12 +34,6 @@ Scene scene_of_particles(Scene scene) {
 /// Of a particle, in cells.
 double reach_of(const Scene& scene) {
   return kernel_support(scene.numerics.kernel) * scene.numerics.nodes_per_h / hybrid_settings(scene).ratio;
-}
-
-/// Calls see(x) at the middle of each of ratio^Dim parts of a cell.
-template <int Dim, class See>
-void for_sites(const Box<Dim>& box, std::size_t cell, int ratio, See&& see) {
-  for_points<Dim>(box.centre(box.cell(cell)), box.spacing, ratio, see);
 }
 
 }  // namespace
@@ -106,9 +93,10 @@ void Hybrid<Dim>::lay_particles(const std::vector<Material>& materials) {
   const int body = static_cast<int>(scene_.bodies.size()) - 1;
   std::vector<Placement<Dim>> placements;
   for (const std::size_t cell : cells_of(false))
-    for_sites(grid_.box(), cell, settings_.ratio, [&](const Vec<Dim>& x) {
-      placements.push_back({x, x, volume, scene_.spacing, grid_.state(cell).density, body, 0});
-    });
+    for_points<Dim>(grid_.box().centre(grid_.box().cell(cell)), grid_.box().spacing, settings_.ratio,
+                    [&](const Vec<Dim>& x) {
+                      placements.push_back({x, x, volume, scene_.spacing, grid_.state(cell).density, body, 0});
+                    });
   const Scene scene = scene_of_particles(scene_);
   particles_ = assemble<Dim>(scene, {grid_.material()}, stages({grid_.material()}), placements, [&](Sph<Dim>& sph) {
     sph.clock = clock;
@@ -196,115 +184,10 @@ void Hybrid<Dim>::lead_rest(Sph<Dim>& sph) const {
 }
 
 template <int Dim>
-void Hybrid<Dim>::look() const {
-  const Particles<Dim>& p = particles_->particles;
-  const std::size_t cells = grid_.box().size();
-  std::vector<std::uint32_t> cell(p.size());
-  first_.assign(cells + 1, 0);
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    cell[i] = static_cast<std::uint32_t>(cell_of(grid_.box(), p.vector(Field::position, i)));
-    ++first_[cell[i] + 1];
-  }
-  std::partial_sum(first_.begin(), first_.end(), first_.begin());
-  in_cells_.resize(p.size());
-  std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-  for (std::size_t i = 0; i < p.size(); ++i) in_cells_[next[cell[i]]++] = static_cast<std::uint32_t>(i);
-}
-
-template <int Dim>
-void Hybrid<Dim>::remove_outside() {
-  Particles<Dim>& p = particles_->particles;
-  std::vector<std::uint32_t> order(p.size());
-  std::iota(order.begin(), order.end(), 0u);
-  const auto outside = std::stable_partition(order.begin(), order.end(), [&](std::uint32_t i) {
-    return zone_.covered(cell_of(grid_.box(), p.vector(Field::position, i)));
-  });
-  if (outside == order.end()) return;
-  p.reorder(order);
-  p.resize(static_cast<std::size_t>(outside - order.begin()));
-}
-
-/// Particles where the zone has come to, and where gas has left the belt around it empty.
-template <int Dim>
-void Hybrid<Dim>::fill_holes(const std::vector<Part>& before) {
-  Particles<Dim>& p = particles_->particles;
-  const Box<Dim>& box = grid_.box();
-  look();
-  const double all = std::pow(settings_.ratio, Dim);  // particles of a cell
-  std::vector<Vec<Dim>> sites;
-  std::vector<double> size(p.size());
-  parallel_for(0, p.size(), [&](std::size_t i) {
-    size[i] = std::pow(p.column(Field::mass)[i] / p.column(Field::density)[i], 1.0 / Dim);
-  });
-  const auto is_free = [&](std::size_t cell, const Vec<Dim>& x) {
-    bool found = false;
-    for_cells_near<Dim>(box, box.cell(cell), 1, [&](std::size_t near, int) {
-      for (std::uint32_t k = first_[near]; k < first_[near + 1] && !found; ++k) {
-        const std::size_t i = in_cells_[k];
-        double squares = 0;
-        for (std::size_t a = 0; a < Dim; ++a) {
-          double d = p.column(Field::position, static_cast<int>(a))[i] - x[static_cast<int>(a)];
-          if (const double length = box.cells[a] * box.spacing; box.lower[a] == BoundaryKind::periodic)
-            d -= length * std::round(d / length);
-          squares += d * d;
-        }
-        const double apart = room * 0.5 * (size[i] + scene_.spacing);
-        found = squares < apart * apart;
-      }
-    });
-    return !found;
-  };
-  for (const std::size_t cell : cells_of(false)) {
-    const bool fresh = before[cell] == Part::grid;
-    if (!fresh && zone_[cell] == Part::active) continue;
-    if (!fresh && first_[cell + 1] - first_[cell] >= static_cast<std::uint32_t>(all)) continue;
-    for_sites(box, cell, settings_.ratio, [&](const Vec<Dim>& x) {
-      if (is_free(cell, x)) sites.push_back(x);
-    });
-  }
-  if (sites.empty()) return;
-  const CellLines<Dim> lines(grid_, cells_of(false));
-  const double volume = box.cell_volume() / all;
-  const std::size_t n = p.size();
-  std::int32_t id = n == 0 ? 0 : std::ranges::max(p.label(Label::id));
-  p.resize(n + sites.size());
-  for (std::size_t k = 0; k < sites.size(); ++k) {
-    const std::size_t i = n + k;
-    const PointState<Dim> s = lines.at(sites[k]);
-    p.set_vector(Field::position, i, sites[k]);
-    p.set_vector(Field::velocity, i, s.velocity);
-    p.column(Field::density)[i] = s.density;
-    p.column(Field::mass)[i] = s.density * volume;
-    p.column(Field::specific_energy)[i] = s.specific_energy;
-    p.column(Field::smoothing_length)[i] = scene_.numerics.nodes_per_h * scene_.spacing;
-    p.label(Label::id)[i] = ++id;
-    p.label(Label::body)[i] = static_cast<std::int32_t>(scene_.bodies.size()) - 1;
-    p.label(Label::material)[i] = 0;
-  }
-}
-
-template <int Dim>
 void Hybrid<Dim>::hold_zone(const std::function<bool(const Vec<Dim>&)>& inside) {
   std::vector<char> active(grid_.box().size());
   for (std::size_t i = 0; i < active.size(); ++i) active[i] = inside(grid_.box().centre(grid_.box().cell(i)));
   zone_.hold(std::move(active));
-}
-
-template <int Dim>
-void Hybrid<Dim>::move_zone() {
-  const Box<Dim> box = grid_.box();
-  grid_.make_room();
-  if (grid_.box().size() != box.size()) zone_.follow(box, grid_.box());
-  const std::vector<Part> before = zone_.parts();
-  zone_.update(grid_);
-  Particles<Dim>& p = particles_->particles;
-  const std::size_t n = p.size();
-  remove_outside();
-  const std::size_t left = p.size();
-  fill_holes(before);
-  if (left == n && p.size() == n) return;
-  p.set_material_ranges(ranges_of_materials(p.label(Label::material), particles_->materials.size()));
-  particles_->lists.invalidate();
 }
 
 template <int Dim>
@@ -361,95 +244,6 @@ void Hybrid<Dim>::persist(Archive& archive) {
   if (!archive.reads()) return;
   zone_.parts().clear();
   for (const std::int32_t part : saved_zone_) zone_.parts().push_back(static_cast<Part>(part));
-}
-
-template <int Dim>
-std::optional<double> Hybrid<Dim>::pressure_at(const Vec<Dim>& x) const {
-  const auto by_grid = grid_.pressure_at(x);
-  if (!by_grid) return by_grid;
-  const Box<Dim>& box = grid_.box();
-  const std::size_t cell = cell_of(box, x);
-  if (zone_[cell] != Part::active) return by_grid;
-  NearMean<Dim> mean(particles_->particles, x);
-  for_cells_near<Dim>(box, box.cell(cell), 1, [&](std::size_t near, int) {
-    for (std::uint32_t k = first_[near]; k < first_[near + 1]; ++k) mean.add(in_cells_[k]);
-  });
-  return mean.pressure(*by_grid);
-}
-
-template <int Dim>
-std::optional<CellState<Dim>> Hybrid<Dim>::at(const Vec<Dim>& x) const {
-  auto state = grid_.at(x);
-  if (!state) return state;
-  const Box<Dim>& box = grid_.box();
-  const std::size_t cell = cell_of(box, x);
-  if (zone_[cell] != Part::active) return state;
-  const Particles<Dim>& p = particles_->particles;
-  double nearest = std::numeric_limits<double>::infinity();
-  for_cells_near<Dim>(box, box.cell(cell), 1, [&](std::size_t near, int) {
-    for (std::uint32_t k = first_[near]; k < first_[near + 1]; ++k) {
-      const std::size_t i = in_cells_[k];
-      const double squares = (p.vector(Field::position, i) - x).squaredNorm();
-      if (squares >= nearest) continue;
-      nearest = squares;
-      state = {p.column(Field::density)[i], p.column(Field::pressure)[i], p.column(Field::sound_speed)[i],
-               p.column(Field::specific_energy)[i], p.vector(Field::velocity, i)};
-    }
-  });
-  return state;
-}
-
-template <int Dim>
-std::optional<BlastFront> Hybrid<Dim>::blast() const {
-  if (!scene_.charge || !scene_.gas) return std::nullopt;
-  look();
-  const Box<Dim>& box = grid_.box();
-  double farthest = 0;
-  for (const int n : box.cells) farthest += n * n * box.spacing * box.spacing;
-  auto blast = find_blast<Dim>(first_components<Dim>(scene_.charge->center), scene_.spacing, std::sqrt(farthest),
-                               grid_.ambient().pressure, [&](const Vec<Dim>& x) { return pressure_at(x); });
-  if (!blast) return blast;
-  blast->peak_density = *std::ranges::max_element(grid_.cells()[0]);
-  for (std::size_t i = 0; i < particles_->particles.size(); ++i)
-    if (part_of(i) == Part::active)
-      blast->peak_density = std::max(blast->peak_density, particles_->particles.column(Field::density)[i]);
-  return blast;
-}
-
-template <int Dim>
-Quantities Hybrid<Dim>::quantities() const {
-  Quantities list;
-  for (const Quantity& q : grid_.quantities())
-    if (!q.name.starts_with("shock")) list.push_back(q);
-  list.push_back(
-      {"particles", "1", static_cast<std::int64_t>(particles_->elements()), "in the zone and in the belt around it"});
-  list.push_back(
-      {"zone", "1", static_cast<std::int64_t>(zone_.count(Part::active)), "cells that follow their particles"});
-  if (!scene_.charge || !scene_.gas) return list;
-  const BlastFront now = blast().value_or(BlastFront{});
-  list.push_back({"shock radius", "m", now.radius, "mean over directions; 0 before there is a shock", true});
-  list.push_back({"shock radius spread", "m", now.spread, "root mean square over directions"});
-  list.push_back({"shock pressure", "Pa", now.peak_pressure, "largest behind the shock, mean over directions", true});
-  return list;
-}
-
-template <int Dim>
-std::string Hybrid<Dim>::outline() const {
-  std::string text = grid_.outline();
-  text += fmt::format("hybrid\n  particles          {} of {} at the start, {} to a cell\n", particles_->elements(),
-                      format_quantity(scene_.spacing, "m"), std::pow(settings_.ratio, Dim));
-  return text;
-}
-
-template <int Dim>
-std::vector<Channel> Hybrid<Dim>::channels(const Asked& asked) const {
-  std::vector<Channel> list = grid_.channels(asked);
-  for (Channel& channel : list) {
-    shown_zone_.assign(zone_.parts().size(), 0);
-    for (std::size_t i = 0; i < shown_zone_.size(); ++i) shown_zone_[i] = static_cast<double>(zone_[i]);
-    channel.fields.push_back({"zone", "1", {shown_zone_}});
-  }
-  return list;
 }
 
 template class Hybrid<2>;

@@ -8,17 +8,19 @@
 #include "grid/blast_reach.hpp"
 #include "grid/grid_fill.hpp"
 #include "hybrid/hybrid.hpp"
+#include "schemes/kernels.hpp"
 
 namespace ejecta {
 
 namespace {
 
 /// Measured in 2D with an ideal gas, one core with AVX-512: steps of particles, the work between steps among them.
-constexpr double particle_steps_per_s = 0.55e6;
+constexpr double particle_steps_per_s = 0.75e6;
 constexpr double steps_in_one = 8;             ///< of particles, within one of the grid
 constexpr double share_of_other_scenes = 0.3;  ///< of the box that is filled with particles, where there is no blast
 
-/// Particles at the end, when most of them are there: a shell of six times the density, that of the belt besides.
+/// Particles at the end, when most of them are there, the belt included: behind the shock the air is six times as
+/// dense, less so further in.
 template <int Dim>
 Estimate estimate(const Scene& scene, const std::vector<Material>& materials) {
   const HybridSettings settings = hybrid_settings(scene);
@@ -34,7 +36,12 @@ Estimate estimate(const Scene& scene, const std::vector<Material>& materials) {
     for (std::size_t a = 0; a < Dim; ++a) part *= box.grows_lower[a] && box.grows_upper[a] ? 1 : 0.5;
     const double surface = Dim == 2 ? 2 * std::numbers::pi * radius : 4 * std::numbers::pi * radius * radius;
     const double cells = surface * coarse.spacing / box.cell_volume();  // a layer of them
-    e.elements = part * cells * each * (settings.ahead + 2 + 3.0 * (settings.behind + settings.hysteresis + 2));
+    const double belt =
+        std::ceil(2 * kernel_support(scene.numerics.kernel) * scene.numerics.nodes_per_h / settings.ratio);
+    constexpr double density_behind = 5;
+    e.elements =
+        part * cells * each *
+        (settings.ahead + settings.hysteresis + belt + density_behind * (settings.behind + settings.hysteresis + belt));
     crossings = 1.3 * radius / coarse.spacing;
   } else {
     e.elements = share_of_other_scenes * static_cast<double>(box.size()) * each;

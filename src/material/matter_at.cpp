@@ -27,9 +27,13 @@ MatterAt<Dim>::MatterAt(const Scene& scene, const std::vector<Material>& materia
 }
 
 template <int Dim>
-bool MatterAt<Dim>::varies(const Vec<Dim>& x, double distance) const {
-  return std::ranges::any_of(formulas_, &Formulas::any) ||
-         (around_ && (x - first_components<Dim>(around_->center)).norm() < around_->radius() + distance);
+bool MatterAt<Dim>::varies() const {
+  return std::ranges::any_of(formulas_, &Formulas::any);
+}
+
+template <int Dim>
+bool MatterAt<Dim>::is_around(const Vec<Dim>& x, double distance) const {
+  return around_ && (x - first_components<Dim>(around_->center)).norm() < around_->radius() + distance;
 }
 
 template <int Dim>

@@ -73,8 +73,10 @@ class MatterAt {
   std::optional<std::array<double, Dim + 2>> mean(const Vec<Dim>& x, double edge, int n) const;
   /// Of one body, wherever it is.
   Matter<Dim> of_body(std::size_t body, const Vec<Dim>& x) const;
-  /// Whether states may vary within bodies, somewhere less than `distance` [m] from x.
-  bool varies(const Vec<Dim>& x, double distance) const;
+  /// Whether some body's state varies within it.
+  bool varies() const;
+  /// Whether `around` reaches to less than `distance` [m] from x.
+  bool is_around(const Vec<Dim>& x, double distance) const;
 
  private:
   void set_around(Matter<Dim>& matter, const Vec<Dim>& x) const;

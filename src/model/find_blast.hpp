@@ -7,6 +7,7 @@
 
 #include "base/parallel.hpp"
 #include "base/types.hpp"
+#include "model/quantity.hpp"
 #include "model/shock_front.hpp"
 
 namespace ejecta {
@@ -63,6 +64,14 @@ std::optional<BlastFront> find_blast(const Vec<Dim>& centre, double spacing, dou
   blast.peak_pressure /= found;
   blast.spread = std::sqrt(std::max(0.0, squares / found - blast.radius * blast.radius));
   return blast;
+}
+
+/// The front for history and summary; zero before there is a shock.
+inline Quantities quantities_of(const std::optional<BlastFront>& blast) {
+  const BlastFront now = blast.value_or(BlastFront{});
+  return {{"shock radius", "m", now.radius, "mean over directions; 0 before there is a shock", true},
+          {"shock radius spread", "m", now.spread, "root mean square over directions"},
+          {"shock pressure", "Pa", now.peak_pressure, "largest behind the shock, mean over directions", true}};
 }
 
 }  // namespace ejecta

@@ -61,7 +61,8 @@ void predict(Particles<Dim>& particles, double dt, double previous_dt, bool damp
     });
     if (!particles.has(Field::compression_rate)) return;
     auto density = particles.column(Field::density);
-    extrapolate(Field::compression_rate, 0, damped_density ? 0 : ahead, [&](std::size_t i, double change) { density[i] *= growth(change); });
+    extrapolate(Field::compression_rate, 0, damped_density ? 0 : ahead,
+                [&](std::size_t i, double change) { density[i] *= growth(change); });
   });
   particles.swap_rates();
 }

@@ -87,6 +87,11 @@ void apply_profiles(Sph<Dim>& sph, const std::vector<Placement<Dim>>& placements
   }
 }
 
+/// Single precision must hold a mass exactly: both sides of a pair then use the same two masses.
+double mass_of(const Scene& scene, double mass) {
+  return scene.numerics.precision == Precision::mixed ? static_cast<float>(mass) : mass;
+}
+
 template <int Dim>
 void fill_columns(Sph<Dim>& sph, const std::vector<Placement<Dim>>& placements) {
   Particles<Dim>& p = sph.particles;
@@ -99,9 +104,7 @@ void fill_columns(Sph<Dim>& sph, const std::vector<Placement<Dim>>& placements) 
     const Material& material = sph.materials[static_cast<std::size_t>(s.material)];
     p.set_vector(Field::position, i, s.x);
     for (int a = 0; a < Dim; ++a) p.column(Field::velocity, a)[i] = body.velocity[static_cast<std::size_t>(a)];
-    // Single precision must hold the mass exactly: both sides of a pair then use the same two masses.
-    const double mass = s.density * s.volume;
-    p.column(Field::mass)[i] = scene.numerics.precision == Precision::mixed ? static_cast<float>(mass) : mass;
+    p.column(Field::mass)[i] = mass_of(scene, s.density * s.volume);
     p.column(Field::density)[i] = s.density;
     p.column(Field::specific_energy)[i] = initial_energy(body, material, s.density);
     p.column(Field::smoothing_length)[i] = scene.numerics.nodes_per_h * s.spacing;
@@ -148,7 +151,7 @@ void lay_blast(Sph<Dim>& sph, const RadialState& blast, const std::vector<Placem
   Particles<Dim>& p = sph.particles;
   for (std::size_t i = 0; i < placements.size(); ++i) {
     const Placement<Dim>& s = placements[i];
-    if (!matter.varies(s.x, s.spacing)) continue;
+    if (!matter.is_around(s.x, s.spacing)) continue;
     const auto u = matter.mean(s.x, s.spacing, cell_samples<Dim>);
     if (!u) continue;  // another body is that near
     const double density = (*u)[0];
@@ -158,7 +161,7 @@ void lay_blast(Sph<Dim>& sph, const RadialState& blast, const std::vector<Placem
       squares += velocity * velocity;
     }
     p.column(Field::density)[i] = density;
-    p.column(Field::mass)[i] = density * s.volume;
+    p.column(Field::mass)[i] = mass_of(sph.scene, density * s.volume);
     p.column(Field::specific_energy)[i] = (*u)[Dim + 1] / density - 0.5 * squares;
   }
   sph.clock.time = blast.time;

@@ -140,7 +140,11 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
             .with(porous && solid, {distension, stress_factor})
             .with(coupled, {uncut_gradient})
             .with(variable_shear, {shear_modulus}),
-        Fields{}.with(continuity, {density}).with(continuity && !godunov, {compression_rate}).with(solid, {stress_rate}), strain_rates<Dim>);
+        Fields{}
+            .with(continuity, {density})
+            .with(continuity && !godunov, {compression_rate})
+            .with(solid, {stress_rate}),
+        strain_rates<Dim>);
   if (balsara || switched)
     add("viscosity switches",
         Fields{velocity_gradient, sound_speed, smoothing_length}.with(switched, {Field::shock_switch}),

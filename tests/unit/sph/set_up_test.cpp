@@ -229,5 +229,57 @@ max = ["10 m", ")" +
     }
 }
 
+/// A blast that begins in one dimension, and a puff of gas with a profile of its own outside of it.
+const std::string blast_beside_a_puff = R"([scene]
+name = "b"
+dimension = 2
+[resolution]
+spacing = "0.5 m"
+[time]
+end = "1 ms"
+[charge]
+radius = "0.5 m"
+density = "1000 kg/m^3"
+energy_per_length = "1e9 J/m"
+[gas]
+density = "1 kg/m^3"
+pressure = "100 kPa"
+[[bodies]]
+name = "puff"
+material = "air"
+shape = "disc"
+center = ["12 m", "0 m"]
+radius = "2 m"
+density = "5 kg/m^3"
+pressure = "100 kPa"
+[bodies.profile]
+velocity = ["x", "0"]
+[boundary]
+min = ["-16 m", "-16 m"]
+max = ["16 m", "16 m"]
+)";
+
+TEST(SetUp, ABlastLeavesOtherBodiesAlone) {
+  const auto sim = start<2>(blast_beside_a_puff, {"numerics.scheme=gsph"});
+  const auto& p = sim->particles;
+  EXPECT_GT(sim->clock.time, 0);
+  int puff = 0;
+  double mass = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (sim->scene.bodies[static_cast<std::size_t>(p.label(Label::body)[i])].name != "puff") continue;
+    if (++puff == 1) mass = p.column(Field::mass)[i];
+    ASSERT_NEAR(p.column(Field::mass)[i], mass, 1e-12);
+    ASSERT_EQ(p.column(Field::velocity, 0)[i], p.column(Field::position, 0)[i]);
+  }
+  EXPECT_GT(puff, 40);
+  EXPECT_NEAR(mass * puff, 5 * std::numbers::pi * 4, 1e-9);
+}
+
+TEST(SetUp, MassesOfABlastFitInSinglePrecision) {
+  const auto sim = start<2>(blast_beside_a_puff, {"numerics.precision=mixed"});
+  EXPECT_GT(sim->clock.time, 0);
+  for (const double mass : sim->particles.column(Field::mass)) ASSERT_EQ(mass, static_cast<float>(mass));
+}
+
 }  // namespace
 }  // namespace ejecta
