@@ -19,6 +19,9 @@ constexpr int most_shrinks = 8;
 /// Gas with less than this share of the largest pressure times sound speed is quiet.
 constexpr double quiet = 0.05;
 
+/// s^2 within a solid.
+constexpr double through_solids = 1e4;
+
 struct Face {
   std::int32_t from, to;  ///< places among all cells concerned
   double weight;          ///< s^2
@@ -49,7 +52,7 @@ Eigen::MatrixXd potentials(const std::vector<Face>& faces, const Eigen::MatrixXd
 
 template <int Dim>
 CellChanges<Dim> correct_by_fluxes(const Grid<Dim>& grid, const std::vector<std::size_t>& active,
-                                   const std::vector<std::int32_t>& place,
+                                   const std::vector<std::int32_t>& place, const std::vector<SolidShare<Dim>>& solids,
                                    const std::vector<std::array<double, Dim + 2>>& wanted) {
   constexpr std::size_t C = Dim + 2;
   const Box<Dim>& box = grid.box();
@@ -87,13 +90,17 @@ CellChanges<Dim> correct_by_fluxes(const Grid<Dim>& grid, const std::vector<std:
   const std::size_t n = active.size(), all = changes.cells.size();
   changes.values.resize(all);
   for (std::size_t k = 0; k < all; ++k)
-    for (std::size_t c = 0; c < C; ++c) changes.values[k][c] = grid.cells()[c][changes.cells[k]];
+    for (std::size_t c = 0; c < C; ++c)
+      changes.values[k][c] = grid.cells()[c][changes.cells[k]] - (k < n ? solids[k].taken[c] : 0);
 
   double largest = 0;
   for (const Face& f : faces) largest = std::max(largest, f.weight);
   for (Face& f : faces) {
     const double share = std::clamp(f.weight / (quiet * largest), 1e-12, 1.0);
-    f.weight = share * share;
+    const auto in_solid = [&](std::int32_t cell) {
+      return cell < static_cast<std::int32_t>(n) && solids[static_cast<std::size_t>(cell)].there;
+    };
+    f.weight = in_solid(f.from) || in_solid(f.to) ? through_solids : share * share;
   }
   Eigen::MatrixXd given(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(C));
   for (std::size_t k = 0; k < n; ++k)
@@ -151,15 +158,17 @@ CellChanges<Dim> correct_by_fluxes(const Grid<Dim>& grid, const std::vector<std:
       share[k] = shrinks + 1 < most_shrinks ? 0.5 * share[k] : 0;
     }
     if (good) break;
+    if (shrinks > 2 * most_shrinks)
+      throw SimulationError("hybrid: what the particles say leaves a cell without density or energy");
   }
   return changes;
 }
 
 template CellChanges<2> correct_by_fluxes<2>(const Grid<2>&, const std::vector<std::size_t>&,
-                                             const std::vector<std::int32_t>&,
+                                             const std::vector<std::int32_t>&, const std::vector<SolidShare<2>>&,
                                              const std::vector<std::array<double, 4>>&);
 template CellChanges<3> correct_by_fluxes<3>(const Grid<3>&, const std::vector<std::size_t>&,
-                                             const std::vector<std::int32_t>&,
+                                             const std::vector<std::int32_t>&, const std::vector<SolidShare<3>>&,
                                              const std::vector<std::array<double, 5>>&);
 
 }  // namespace ejecta

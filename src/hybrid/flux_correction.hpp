@@ -26,11 +26,22 @@ struct CellChanges {
   std::vector<std::array<double, Dim + 2>> values;
 };
 
+/// What solids have taken from cells, and cells that have part of one.
+template <int Dim>
+struct SolidShare {
+  std::array<double, Dim + 2> taken{};  ///< since the step began [per volume of the cell]
+  bool there = false;
+};
+
 /// `active`: indices of the active cells; `place`: their places in it, by cell, -1 elsewhere; `wanted`: per volume, one
-/// for each of `active`. Where density or energy would not stay positive beside the zone the corrections shrink.
+/// for each of `active`, as is `solids`. Where density or energy would not stay positive beside the zone the
+/// corrections shrink.
+///
+/// Cells inside a solid hold gas at rest, whose pressure passes from one side of it to the other; the solid gets what
+/// acts on each side. That these agree must not take its way around the solid: fluxes between its cells cost little.
 template <int Dim>
 CellChanges<Dim> correct_by_fluxes(const Grid<Dim>& grid, const std::vector<std::size_t>& active,
-                                   const std::vector<std::int32_t>& place,
+                                   const std::vector<std::int32_t>& place, const std::vector<SolidShare<Dim>>& solids,
                                    const std::vector<std::array<double, Dim + 2>>& wanted);
 
 }  // namespace ejecta

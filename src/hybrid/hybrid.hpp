@@ -6,13 +6,14 @@
 /// them a belt of particles moves with the gas of the grid. Afterwards the cells that particles fill are led to what
 /// those say, by fluxes that take from one cell what they give to the next (flux_correction.hpp): whatever the
 /// particles do, nothing is lost. Particles come into being from what the grid holds, and vanish without leaving a
-/// trace in the ledger.
+/// trace in the ledger. Solid bodies (solids.hpp) always have such gas around them.
 #include <functional>
 #include <memory>
 #include <optional>
 
-#include "hybrid/cell_lines.hpp"
-#include "hybrid/zone.hpp"
+#include "hybrid/flux_correction.hpp"
+#include "hybrid/particles_by_cell.hpp"
+#include "hybrid/solids.hpp"
 #include "sph/sph.hpp"
 
 namespace ejecta {
@@ -27,11 +28,11 @@ class Hybrid final : public Package {
   Vote vote() override { return grid_.vote(); }
   void advance(double dt) override;
   void check_health() const override {}
-  Totals conserved() const override { return grid_.conserved(); }
-  Kept kept() const override { return grid_.kept(); }
+  Totals conserved() const override;
+  Kept kept() const override;
   bool is_loaded() const override { return true; }
   void persist(Archive& archive) override;
-  std::vector<Package*> parts() override { return {&grid_, particles_.get()}; }
+  std::vector<Package*> parts() override;
   Quantities quantities() const override;
   std::string outline() const override;
   std::vector<Remark> remarks() const override { return grid_.remarks(); }
@@ -39,12 +40,14 @@ class Hybrid final : public Package {
   std::vector<Channel> channels(const Asked& asked) const override;
   std::string describe(std::size_t cell) const override { return grid_.describe(cell); }
   std::optional<BlastFront> blast() const override;
-  std::size_t elements() const override { return grid_.elements() + particles_->elements(); }
+  std::size_t elements() const override;
   double element_steps() const override { return grid_.element_steps() + particle_steps_; }
-  std::size_t bytes() const override { return grid_.bytes() + particles_->bytes(); }
+  std::size_t bytes() const override;
 
   const Grid<Dim>& grid() const { return grid_; }
+  /// Those of the gas, the images of solids among them.
   const Sph<Dim>& particles() const { return *particles_; }
+  const Solids<Dim>* solids() const { return solids_ ? &*solids_ : nullptr; }
   const Zone<Dim>& zone() const { return zone_; }
   /// From now on particles move freely where inside(centre of a cell) says so, and nowhere else: for tests.
   void hold_zone(const std::function<bool(const Vec<Dim>&)>& inside);
@@ -52,35 +55,46 @@ class Hybrid final : public Package {
   /// state at the last call of look().
   std::optional<double> pressure_at(const Vec<Dim>& x) const;
   /// State at a point: that of the nearest particle where they move freely, else that of the grid; nothing beyond the
-  /// box. Of the state at the last call of look().
+  /// box and in solids. Of the state at the last call of look().
   std::optional<CellState<Dim>> at(const Vec<Dim>& x) const;
+  /// The particle of a solid at a point; nothing in gas. Of the state at the last call of look().
+  std::optional<std::size_t> solid_at(const Vec<Dim>& x) const;
   /// Sorts particles into cells, for questions about points.
   void look() const;
 
  private:
+  /// The particle nearest to a point, in cells that follow their particles.
+  std::optional<std::size_t> nearest(const Vec<Dim>& x) const;
   std::vector<Stage<Dim>> stages(const std::vector<Material>& materials) const;
   void lay_particles(const std::vector<Material>& materials);
-  Part part_of(std::size_t particle) const;
+  Part part_at(const Vec<Dim>& x) const;
   /// What the grid says at a particle now.
   PointState<Dim> led_state(std::size_t particle) const;
   void lead_motion(Sph<Dim>& sph) const;
   void lead_state(Sph<Dim>& sph) const;
+  void lead_gas(Sph<Dim>& sph) const;
   void lead_rest(Sph<Dim>& sph) const;
   std::vector<std::size_t> cells_of(bool only_active) const;
+  std::vector<std::size_t> cells_of_solids() const;
   void move_zone();
   void remove_outside();
   void fill_holes(const std::vector<Part>& before);
-  void follow_particles();
+  void substeps(double dt, std::vector<SolidShare<Dim>>& solids, const std::vector<std::int32_t>& place);
+  void follow_particles(const std::vector<std::size_t>& active, const std::vector<std::int32_t>& place,
+                        std::vector<SolidShare<Dim>>& solids);
 
   Scene scene_;
   HybridSettings settings_;
   Grid<Dim> grid_;
   Zone<Dim> zone_;
+  std::optional<Solids<Dim>> solids_;
   std::unique_ptr<Sph<Dim>> particles_;
-  std::optional<CellLines<Dim>> before_, after_;         ///< the grid at the ends of the present step
-  double began_ = 0, span_ = 0;                          ///< of that step [s]
-  double particle_steps_ = 0;                            ///< particles that have been advanced, all steps added
-  mutable std::vector<std::uint32_t> first_, in_cells_;  ///< particles by cell: those of cell c from first_[c] on
+  std::vector<double> laid_density_;              ///< by id, until the first particles have their masses [kg/m^3]
+  std::optional<CellLines<Dim>> before_, after_;  ///< the grid at the ends of the present step
+  double began_ = 0, span_ = 0;                   ///< of that step [s]
+  double particle_steps_ = 0;                     ///< particles that have been advanced, all steps added
+  mutable ParticlesByCell<Dim> by_cell_;
+  mutable std::vector<std::uint32_t> solid_of_id_;  ///< places of solid particles, by id; for views
   mutable std::vector<double> shown_zone_;
   std::vector<std::int32_t> saved_zone_;  ///< what an archive is shown must outlive it
 };

@@ -9,20 +9,13 @@
 
 namespace ejecta {
 
-namespace {
-
-/// Particles come where no other one is nearer than this share of the mean of their spacings.
-constexpr double room = 0.9;
-
-}  // namespace
-
 template <int Dim>
 void Hybrid<Dim>::remove_outside() {
   Particles<Dim>& p = particles_->particles;
   std::vector<std::uint32_t> order(p.size());
   std::iota(order.begin(), order.end(), 0u);
   const auto outside = std::stable_partition(order.begin(), order.end(), [&](std::uint32_t i) {
-    return zone_.covered(cell_of(grid_.box(), p.vector(Field::position, i)));
+    return zone_.covered(cell_of(grid_.box(), p.vector(Field::position, i))) || is_image(p, i);
   });
   if (outside == order.end()) return;
   p.reorder(order);
@@ -43,26 +36,23 @@ void Hybrid<Dim>::fill_holes(const std::vector<Part>& before) {
   });
   const auto is_free = [&](std::size_t cell, const Vec<Dim>& x) {
     bool found = false;
-    for_cells_near<Dim>(box, box.cell(cell), 1, [&](std::size_t near, int) {
-      for (std::uint32_t k = first_[near]; k < first_[near + 1] && !found; ++k) {
-        const std::size_t i = in_cells_[k];
-        double squares = 0;
-        for (std::size_t a = 0; a < Dim; ++a) {
-          double d = p.column(Field::position, static_cast<int>(a))[i] - x[static_cast<int>(a)];
-          if (const double length = box.cells[a] * box.spacing; box.lower[a] == BoundaryKind::periodic)
-            d -= length * std::round(d / length);
-          squares += d * d;
-        }
-        const double apart = room * 0.5 * (size[i] + scene_.spacing);
-        found = squares < apart * apart;
+    by_cell_.for_near(box, cell, 1, [&](std::size_t i) {
+      double squares = 0;
+      for (std::size_t a = 0; a < Dim; ++a) {
+        double d = p.column(Field::position, static_cast<int>(a))[i] - x[static_cast<int>(a)];
+        if (const double length = box.cells[a] * box.spacing; box.lower[a] == BoundaryKind::periodic)
+          d -= length * std::round(d / length);
+        squares += d * d;
       }
+      const double apart = room_for_particles * 0.5 * (size[i] + scene_.spacing);
+      found = found || squares < apart * apart;
     });
     return !found;
   };
   for (const std::size_t cell : cells_of(false)) {
     const bool fresh = before[cell] == Part::grid;
     if (!fresh && zone_[cell] == Part::active) continue;
-    if (!fresh && first_[cell + 1] - first_[cell] >= static_cast<std::uint32_t>(all)) continue;
+    if (!fresh && by_cell_.count(cell) >= static_cast<std::size_t>(all)) continue;
     for_points<Dim>(box.centre(box.cell(cell)), box.spacing, settings_.ratio, [&](const Vec<Dim>& x) {
       if (is_free(cell, x)) sites.push_back(x);
     });
@@ -85,6 +75,7 @@ void Hybrid<Dim>::fill_holes(const std::vector<Part>& before) {
     p.label(Label::id)[i] = ++id;
     p.label(Label::body)[i] = static_cast<std::int32_t>(scene_.bodies.size()) - 1;
     p.label(Label::material)[i] = 0;
+    if (solids_) p.column(Field::wall)[i] = 0;
   }
 }
 
@@ -94,7 +85,7 @@ void Hybrid<Dim>::move_zone() {
   grid_.make_room();
   if (grid_.box().size() != box.size()) zone_.follow(box, grid_.box());
   const std::vector<Part> before = zone_.parts();
-  zone_.update(grid_);
+  zone_.update(grid_, cells_of_solids());
   Particles<Dim>& p = particles_->particles;
   const std::size_t n = p.size();
   remove_outside();

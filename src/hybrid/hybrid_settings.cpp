@@ -14,6 +14,7 @@ void HybridSettings::describe(Describer& d) {
            "and by at least this share of the highest pressure anywhere");
   d.integer("ahead", ahead, at_least(1), "cells that particles fill around a front, towards the lower pressure");
   d.integer("behind", behind, at_least(0), "and towards the higher one");
+  d.integer("around", around, at_least(1), "cells around solid bodies that particles fill");
   d.integer("hysteresis", hysteresis, at_least(0), "cells further out that keep the particles that they have");
   d.choice(
       "transfer", transfer,

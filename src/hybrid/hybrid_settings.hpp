@@ -16,6 +16,7 @@ struct HybridSettings final : SectionSettings {
   double jump = 0.5;          ///< of pressure between two cells, over the lower one, that makes a front
   double least_share = 0.2;   ///< of the highest pressure anywhere: the least jump of a front
   int ahead = 2, behind = 2;  ///< cells around a front that particles fill, towards lower and higher pressure
+  int around = 3;             ///< cells around solids that particles fill
   int hysteresis = 1;         ///< cells further out that keep the particles that they have
   Transfer transfer = Transfer::fluxes;
 

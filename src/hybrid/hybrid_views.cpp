@@ -15,18 +15,8 @@ namespace ejecta {
 
 template <int Dim>
 void Hybrid<Dim>::look() const {
-  const Particles<Dim>& p = particles_->particles;
-  const std::size_t cells = grid_.box().size();
-  std::vector<std::uint32_t> cell(p.size());
-  first_.assign(cells + 1, 0);
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    cell[i] = static_cast<std::uint32_t>(cell_of(grid_.box(), p.vector(Field::position, i)));
-    ++first_[cell[i] + 1];
-  }
-  std::partial_sum(first_.begin(), first_.end(), first_.begin());
-  in_cells_.resize(p.size());
-  std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-  for (std::size_t i = 0; i < p.size(); ++i) in_cells_[next[cell[i]]++] = static_cast<std::uint32_t>(i);
+  by_cell_.sort(particles_->particles, grid_.box());
+  if (solids_) solid_of_id_ = solids_->by_id();
 }
 
 template <int Dim>
@@ -37,32 +27,42 @@ std::optional<double> Hybrid<Dim>::pressure_at(const Vec<Dim>& x) const {
   const std::size_t cell = cell_of(box, x);
   if (zone_[cell] != Part::active) return by_grid;
   NearMean<Dim> mean(particles_->particles, x);
-  for_cells_near<Dim>(box, box.cell(cell), 1, [&](std::size_t near, int) {
-    for (std::uint32_t k = first_[near]; k < first_[near + 1]; ++k) mean.add(in_cells_[k]);
-  });
+  by_cell_.for_near(box, cell, 1, [&](std::size_t i) { mean.add(i); });
   return mean.pressure(*by_grid);
 }
 
 template <int Dim>
-std::optional<CellState<Dim>> Hybrid<Dim>::at(const Vec<Dim>& x) const {
-  auto state = grid_.at(x);
-  if (!state) return state;
+std::optional<std::size_t> Hybrid<Dim>::nearest(const Vec<Dim>& x) const {
   const Box<Dim>& box = grid_.box();
-  const std::size_t cell = cell_of(box, x);
-  if (zone_[cell] != Part::active) return state;
+  if (!grid_.at(x) || zone_[cell_of(box, x)] != Part::active) return std::nullopt;
   const Particles<Dim>& p = particles_->particles;
-  double nearest = std::numeric_limits<double>::infinity();
-  for_cells_near<Dim>(box, box.cell(cell), 1, [&](std::size_t near, int) {
-    for (std::uint32_t k = first_[near]; k < first_[near + 1]; ++k) {
-      const std::size_t i = in_cells_[k];
-      const double squares = (p.vector(Field::position, i) - x).squaredNorm();
-      if (squares >= nearest) continue;
-      nearest = squares;
-      state = {p.column(Field::density)[i], p.column(Field::pressure)[i], p.column(Field::sound_speed)[i],
-               p.column(Field::specific_energy)[i], p.vector(Field::velocity, i)};
-    }
+  double least = std::numeric_limits<double>::infinity();
+  std::optional<std::size_t> found;
+  by_cell_.for_near(box, cell_of(box, x), 1, [&](std::size_t i) {
+    const double squares = (p.vector(Field::position, i) - x).squaredNorm();
+    if (squares >= least) return;
+    least = squares;
+    found = i;
   });
-  return state;
+  return found;
+}
+
+template <int Dim>
+std::optional<CellState<Dim>> Hybrid<Dim>::at(const Vec<Dim>& x) const {
+  const auto i = nearest(x);
+  if (!i) return grid_.at(x);
+  const Particles<Dim>& p = particles_->particles;
+  if (is_image(p, *i)) return std::nullopt;
+  return CellState<Dim>{p.column(Field::density)[*i], p.column(Field::pressure)[*i], p.column(Field::sound_speed)[*i],
+                        p.column(Field::specific_energy)[*i], p.vector(Field::velocity, *i)};
+}
+
+template <int Dim>
+std::optional<std::size_t> Hybrid<Dim>::solid_at(const Vec<Dim>& x) const {
+  if (!solids_) return std::nullopt;
+  const auto i = nearest(x);
+  if (!i || !is_image(particles_->particles, *i)) return std::nullopt;
+  return solid_of_id_[static_cast<std::size_t>(particles_->particles.label(Label::id)[*i])];
 }
 
 template <int Dim>
@@ -76,9 +76,10 @@ std::optional<BlastFront> Hybrid<Dim>::blast() const {
                                grid_.ambient().pressure, [&](const Vec<Dim>& x) { return pressure_at(x); });
   if (!blast) return blast;
   blast->peak_density = *std::ranges::max_element(grid_.cells()[0]);
-  for (std::size_t i = 0; i < particles_->particles.size(); ++i)
-    if (part_of(i) == Part::active)
-      blast->peak_density = std::max(blast->peak_density, particles_->particles.column(Field::density)[i]);
+  const Particles<Dim>& p = particles_->particles;
+  for (std::size_t i = 0; i < p.size(); ++i)
+    if (part_at(p.vector(Field::position, i)) == Part::active && !is_image(p, i))
+      blast->peak_density = std::max(blast->peak_density, p.column(Field::density)[i]);
   return blast;
 }
 
@@ -87,6 +88,11 @@ Quantities Hybrid<Dim>::quantities() const {
   Quantities list = grid_.quantities_of_cells();
   list.push_back(
       {"particles", "1", static_cast<std::int64_t>(particles_->elements()), "in the zone and in the belt around it"});
+  if (solids_)
+    for (Quantity q : solids_->particles().quantities()) {
+      q.name = "solids: " + q.name;
+      list.push_back(std::move(q));
+    }
   list.push_back(
       {"zone", "1", static_cast<std::int64_t>(zone_.count(Part::active)), "cells that follow their particles"});
   if (scene_.charge && scene_.gas) std::ranges::move(quantities_of(blast()), std::back_inserter(list));
@@ -118,6 +124,10 @@ template std::optional<double> Hybrid<2>::pressure_at(const Vec<2>&) const;
 template std::optional<double> Hybrid<3>::pressure_at(const Vec<3>&) const;
 template std::optional<CellState<2>> Hybrid<2>::at(const Vec<2>&) const;
 template std::optional<CellState<3>> Hybrid<3>::at(const Vec<3>&) const;
+template std::optional<std::size_t> Hybrid<2>::nearest(const Vec<2>&) const;
+template std::optional<std::size_t> Hybrid<3>::nearest(const Vec<3>&) const;
+template std::optional<std::size_t> Hybrid<2>::solid_at(const Vec<2>&) const;
+template std::optional<std::size_t> Hybrid<3>::solid_at(const Vec<3>&) const;
 template std::optional<BlastFront> Hybrid<2>::blast() const;
 template std::optional<BlastFront> Hybrid<3>::blast() const;
 template Quantities Hybrid<2>::quantities() const;

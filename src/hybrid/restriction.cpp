@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "hybrid/solids.hpp"
+
 namespace ejecta {
 
 namespace {
@@ -23,6 +25,7 @@ std::vector<Restricted<Dim>> restrict_particles(const Particles<Dim>& p, const B
   for (std::size_t i = 0; i < p.size(); ++i) {
     const double edge = (Dim == 2 ? std::sqrt(mass[i] / density[i]) : std::cbrt(mass[i] / density[i])) / box.spacing;
     const Vec<Dim> v = p.vector(Field::velocity, i);
+    const bool wall = is_image(p, i);
     std::array<std::array<Extent, 3>, Dim> extents;
     std::array<int, Dim> counts;
     for (std::size_t a = 0; a < Dim; ++a) {
@@ -60,8 +63,9 @@ std::vector<Restricted<Dim>> restrict_particles(const Particles<Dim>& p, const B
             overlap *= std::min<double>(e.high, cell[a] + 1) - std::max<double>(e.low, cell[a]);
           }
           Restricted<Dim>& r = all[static_cast<std::size_t>(at)];
-          const double part = overlap * density[i];
+          const double part = wall ? 0 : overlap * density[i];
           r.volume += overlap;
+          if (wall) r.solid += overlap;
           r.sum[0] += part;
           for (std::size_t a = 0; a < Dim; ++a)
             r.sum[1 + a] += part * extents[a][static_cast<std::size_t>(image[a])].sign * v[static_cast<int>(a)];

@@ -12,6 +12,7 @@ template <int Dim>
 struct Restricted {
   std::array<double, Dim + 2> sum{};  ///< density, momentum and energy per volume
   double volume = 0;                  ///< share of the cell that particles cover
+  double solid = 0;                   ///< that of the images of solids among them, which are not in the sum
 };
 
 /// Of the active cells of a zone, one each in the order of `cells`. Every particle is a square (a cube) as large as its

@@ -28,9 +28,9 @@ void Zone<Dim>::follow(const Box<Dim>& before, const Box<Dim>& now) {
   parts_ = std::move(moved);
 }
 
-/// 1: within reach of a front; 2: near enough to keep its particles.
+/// 1: within reach of a front or a solid; 2: near enough to keep its particles.
 template <int Dim>
-std::vector<std::uint8_t> Zone<Dim>::near_fronts(const Grid<Dim>& grid) const {
+std::vector<std::uint8_t> Zone<Dim>::near_fronts(const Grid<Dim>& grid, const std::vector<std::size_t>& solids) const {
   const Box<Dim>& box = grid.box();
   std::vector<double> pressure(box.size());
   parallel_for(0, box.size(), [&](std::size_t i) { pressure[i] = grid.state(i).pressure; });
@@ -46,6 +46,7 @@ std::vector<std::uint8_t> Zone<Dim>::near_fronts(const Grid<Dim>& grid) const {
         near[i] = 2;
     });
   };
+  for (const std::size_t i : solids) stamp(i, settings_.around);
   for (std::size_t i = 0; i < box.size(); ++i) {
     const std::array<int, Dim> cell = box.cell(i);
     for (std::size_t a = 0; a < Dim; ++a) {
@@ -66,10 +67,10 @@ std::vector<std::uint8_t> Zone<Dim>::near_fronts(const Grid<Dim>& grid) const {
 }
 
 template <int Dim>
-void Zone<Dim>::update(const Grid<Dim>& grid) {
+void Zone<Dim>::update(const Grid<Dim>& grid, const std::vector<std::size_t>& solids) {
   const Box<Dim>& box = grid.box();
   std::vector<std::uint8_t> near(held_.begin(), held_.end());
-  if (held_.empty()) near = near_fronts(grid);
+  if (held_.empty()) near = near_fronts(grid, solids);
   if (parts_.size() != box.size()) parts_.assign(box.size(), Part::grid);
   std::vector<Part> now(box.size(), Part::grid);
   // Particles that no gas holds from the other side would fly out of an open face.

@@ -9,6 +9,9 @@
 
 namespace ejecta {
 
+/// Particles come where no other one is nearer than this share of the mean of their spacings.
+inline constexpr double room_for_particles = 0.9;
+
 /// What a cell is to the particles: nothing; filled with particles that the grid leads, so that those further in have
 /// neighbours, the rim of them without all of their own; or filled with particles that move freely, and whose gas the
 /// cell follows.
@@ -23,8 +26,8 @@ class Zone {
         inner_(static_cast<int>(std::ceil(reach))),
         depth_(static_cast<int>(std::ceil(2 * reach))) {}
 
-  /// Around the fronts that are there now [one value a cell of the grid's box].
-  void update(const Grid<Dim>& grid);
+  /// Around the fronts that are there now, and these cells, in which solids are.
+  void update(const Grid<Dim>& grid, const std::vector<std::size_t>& solids);
   /// From now on these cells are active and no others, whatever there is: for tests.
   void hold(std::vector<char> active) { held_ = std::move(active); }
   /// The same zone in a box that has grown.
@@ -37,7 +40,7 @@ class Zone {
   const std::vector<Part>& parts() const { return parts_; }
 
  private:
-  std::vector<std::uint8_t> near_fronts(const Grid<Dim>& grid) const;
+  std::vector<std::uint8_t> near_fronts(const Grid<Dim>& grid, const std::vector<std::size_t>& solids) const;
 
   HybridSettings settings_;
   int inner_, depth_;  ///< cells of led particles, without and with the rim

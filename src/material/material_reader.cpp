@@ -63,11 +63,12 @@ void check_use(const Scene& scene, const std::vector<Material>& materials, std::
     const auto report = [&](const std::string& message) {
       problems.push_back(fmt::format("{}: bodies.{}: {}", body.origin, body.name, message));
     };
-    if (scene.numerics.godunov() && !found->gas())
+    const bool apart = scene.numerics.scheme == SchemeKind::hybrid;  // solids are particles of their own there
+    if (scene.numerics.godunov() && !apart && !found->gas())
       report(
           fmt::format("numerics.scheme: expected sph or asph, got {}: {} is no gas, and Riemann problems are of gases",
                       name_of(scene.numerics.scheme), body.material));
-    else if (scene.numerics.density == DensityMethod::summation && !found->gas())
+    else if (scene.numerics.density == DensityMethod::summation && !apart && !found->gas())
       report(fmt::format(
           "numerics.density: expected continuity, got summation: {} is no gas, and a summed density falls off "
           "at free surfaces",

@@ -9,12 +9,11 @@
 #include "grid/blast_reach.hpp"
 #include "observe/channels.hpp"
 #include "observe/field_styles.hpp"
+#include "observe/particle_frames.hpp"
 
 namespace ejecta {
 
 namespace {
-
-const std::vector<std::string> slice_fields{"density", "pressure", "mach"};
 
 /// The box, or where it grows with a blast, what that will have swept.
 template <int Dim>
@@ -57,6 +56,30 @@ Extremes expected(const Scene& scene, const Grid<Dim>& grid) {
   return e;
 }
 
+template <int Dim>
+const Sph<Dim>* solids_of(const Hybrid<Dim>* hybrid) {
+  return hybrid && hybrid->solids() ? &hybrid->solids()->particles() : nullptr;
+}
+
+/// Whether pictures show how solids break, in place of the Mach number.
+template <int Dim>
+bool shows_damage(const Sph<Dim>* solids) {
+  return solids && solids->particles.has(Field::damage);
+}
+
+template <int Dim>
+PicturePlan plan_of(const Simulation& sim, const Grid<Dim>& grid) {
+  PicturePlan plan{view_of(sim.scene, grid), {"density", "pressure"}, field_styles(sim.scene, expected(sim.scene, grid))};
+  plan.slice_fields.emplace_back(shows_damage(solids_of(find_package<Hybrid<Dim>>(sim))) ? "damage" : "mach");
+  return plan;
+}
+
+template <int Dim>
+PipelineSettings told_of(const Simulation& sim) {
+  const Sph<Dim>* solids = solids_of(find_package<Hybrid<Dim>>(sim));
+  return solids ? pipeline_settings(*solids) : PipelineSettings{};
+}
+
 /// The pixels without those beyond faces that stay where they are: nothing will ever be there.
 template <int Dim>
 PixelGrid within(PixelGrid pixels, const Box<Dim>& box) {
@@ -76,10 +99,10 @@ PixelGrid within(PixelGrid pixels, const Box<Dim>& box) {
 template <int Dim>
 GridFrames<Dim>::GridFrames(const Simulation& sim, const Grid<Dim>& grid, const std::filesystem::path& folder,
                             bool catalyst)
-    : Frames(sim, folder, catalyst,
-             {view_of(sim.scene, grid), slice_fields, field_styles(sim.scene, expected(sim.scene, grid))}, {}),
+    : Frames(sim, folder, catalyst, plan_of(sim, grid), told_of<Dim>(sim)),
       grid_(grid),
-      hybrid_(find_package<Hybrid<Dim>>(sim)) {
+      hybrid_(find_package<Hybrid<Dim>>(sim)),
+      solids_(solids_of(hybrid_)) {
   slice_grid_ = within(slice_grid_, grid.box());
 }
 
@@ -90,7 +113,9 @@ SampledImage GridFrames<Dim>::make_slice() {
   image.grid = slice_grid_;
   const auto width = static_cast<std::size_t>(slice_grid_.width), height = static_cast<std::size_t>(slice_grid_.height);
   const std::vector<double> nothing(width * height, std::numeric_limits<double>::quiet_NaN());
-  image.fields = {{"density", "kg/m^3", {nothing}}, {"pressure", "Pa", {nothing}}, {"mach", "1", {nothing}}};
+  const bool damage = shows_damage(solids_);
+  image.fields = {
+      {"density", "kg/m^3", {nothing}}, {"pressure", "Pa", {nothing}}, {damage ? "damage" : "mach", "1", {nothing}}};
   if (hybrid_) hybrid_->look();
   // The edge of what particles fill is left blank, a line one pixel wide.
   const auto active = [&](const Vec<Dim>& x) {
@@ -102,6 +127,12 @@ SampledImage GridFrames<Dim>::make_slice() {
       x[0] = slice_grid_.first[0] + static_cast<double>(column) * slice_grid_.pixel;
       x[Dim - 1] = slice_grid_.first[1] + static_cast<double>(row) * slice_grid_.pixel;
       if constexpr (Dim == 3) x[1] = view_.center[1];
+      const std::size_t i = row * width + column;
+      if (const auto solid = hybrid_ ? hybrid_->solid_at(x) : std::nullopt) {
+        image.fields[1].components[0][i] = solids_->particles.column(Field::pressure)[*solid];
+        if (damage) image.fields[2].components[0][i] = solids_->particles.column(Field::damage)[*solid];
+        continue;
+      }
       const auto state = hybrid_ ? hybrid_->at(x) : grid_.at(x);
       if (!state) continue;
       if (hybrid_) {
@@ -111,10 +142,9 @@ SampledImage GridFrames<Dim>::make_slice() {
         const bool here = active(x);
         if (active(right) != here || active(up) != here) continue;
       }
-      const std::size_t i = row * width + column;
       image.fields[0].components[0][i] = state->density;
       image.fields[1].components[0][i] = state->pressure;
-      image.fields[2].components[0][i] = state->velocity.norm() / state->sound_speed;
+      if (!damage) image.fields[2].components[0][i] = state->velocity.norm() / state->sound_speed;
     }
   });
   return image;
@@ -128,7 +158,24 @@ std::vector<Channel> GridFrames<Dim>::make_channels(Simulation& sim) {
       slice_ = make_slice();
       made.push_back(slice_channel(slice_, Dim, view_.center[1]));
     });
+  if (solids_ && reads("particles")) made.push_back(channels_.particles(solids_->particles, fragments_));
+  if (fragments_ && reads("fragments"))
+    made.push_back(channels_.fragments(*fragments_, target_body(solids_->scene, solids_->outset.bodies)));
   return made;
+}
+
+template <int Dim>
+void GridFrames<Dim>::look(Simulation& sim) {
+  if (!solids_ || !sim.scene.fragments.enabled) return;
+  sim.timers.time("in situ: fragment search",
+                  [&] { fragments_ = tracker_.update(fragment_input(*solids_), sim.scene.fragments); });
+}
+
+template <int Dim>
+void GridFrames<Dim>::resume(const Simulation& sim) {
+  Frames::resume(sim);
+  if (solids_ && sim.scene.fragments.enabled)
+    fragments_ = tracker_.update(fragment_input(*solids_), sim.scene.fragments);
 }
 
 template class GridFrames<2>;

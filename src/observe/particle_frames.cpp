@@ -15,7 +15,8 @@ PicturePlan plan_of(const Sph<Dim>& sph) {
   return plan;
 }
 
-/// What only scripts that draw particles ask for.
+}  // namespace
+
 template <int Dim>
 PipelineSettings pipeline_settings(const Sph<Dim>& sph) {
   const Scene& scene = sph.scene;
@@ -27,8 +28,6 @@ PipelineSettings pipeline_settings(const Sph<Dim>& sph) {
   settings.kernel_support = kernel_support(scene.numerics.kernel);
   return settings;
 }
-
-}  // namespace
 
 template <int Dim>
 ParticleFrames<Dim>::ParticleFrames(const Simulation& sim, const Sph<Dim>& sph, const std::filesystem::path& folder,
@@ -85,6 +84,8 @@ void ParticleFrames<Dim>::keep(bool last) {
   if (last) compaction_.write(folder_, sph_.materials);
 }
 
+template PipelineSettings pipeline_settings<2>(const Sph<2>&);
+template PipelineSettings pipeline_settings<3>(const Sph<3>&);
 template class ParticleFrames<2>;
 template class ParticleFrames<3>;
 

@@ -8,6 +8,10 @@
 
 namespace ejecta {
 
+/// What scripts that draw particles ask for beyond what all are told.
+template <int Dim>
+PipelineSettings pipeline_settings(const Sph<Dim>& sph);
+
 template <int Dim>
 class ParticleFrames final : public Frames {
  public:

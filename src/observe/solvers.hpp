@@ -6,12 +6,14 @@
 
 namespace ejecta {
 
-/// Calls see(sph) if the matter of the simulation is particles: those of a hybrid are gone tomorrow.
+/// Calls see(sph) if bodies of the simulation are particles; those of the gas in a hybrid are gone tomorrow.
 template <class See>
 void with_particles(const Simulation& sim, See&& see) {
-  if (sim.scene.numerics.on_grid()) return;
-  if (const auto* flat = find_package<Sph<2>>(sim)) see(*flat);
-  if (const auto* full = find_package<Sph<3>>(sim)) see(*full);
+  const auto show = [&](const auto* sph) {
+    if (sph && sph->title != "gas") see(*sph);
+  };
+  show(find_package<Sph<2>>(sim));
+  show(find_package<Sph<3>>(sim));
 }
 
 /// Calls see(grid) if the simulation has one.

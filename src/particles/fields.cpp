@@ -67,6 +67,7 @@ const std::array<FieldInfo, field_count>& field_catalogue() {
        "highest specific internal energy so far"},
       {Field::density_low, "density_low", scalar, "kg/m^3", state, "lowest bulk density so far"},
       {Field::initial_position, "initial_position", vector, "m", constant, "position at the start"},
+      {Field::wall, "wall", scalar, "1", constant, "1 for what gas sees of a solid: such particles do not feel each other"},
   }};
   return catalogue;
 }

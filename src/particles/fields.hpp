@@ -51,6 +51,7 @@ enum class Field {
   specific_energy_peak,
   density_low,
   initial_position,
+  wall,
   count
 };
 inline constexpr int field_count = static_cast<int>(Field::count);

@@ -43,14 +43,15 @@ template <class V>
 struct RiemannFlux {
   static constexpr bool whole = true;
 
-  /// Reads pressure, density, sound_speed, and where they exist density_gradient, pressure_gradient, velocity_gradient
-  /// and face_correction.
+  /// Reads pressure, density, sound_speed, and where they exist density_gradient, pressure_gradient, velocity_gradient,
+  /// face_correction and wall.
   template <int Dim, bool Strained>
   class Record {
    public:
     static constexpr int pressure = 0;
     static constexpr int gamma = pressure + 1;          ///< rho c^2/P
-    static constexpr int density_gradient = gamma + 1;  ///< gradients by length_unit
+    static constexpr int wall = gamma + 1;              ///< 1: nothing passes to others that have it too
+    static constexpr int density_gradient = wall + 1;   ///< gradients by length_unit
     static constexpr int pressure_gradient = density_gradient + Dim;
     static constexpr int strain = pressure_gradient + Dim;  ///< e_xx e_yy 2 e_xy | ...
     static constexpr int correction = strain + symmetric_size<Dim>;
@@ -64,6 +65,7 @@ struct RiemannFlux {
           density_gradient_(particles, Field::density_gradient),
           pressure_gradient_(particles, Field::pressure_gradient),
           correction_(particles, Field::face_correction),
+          wall_(particles, Field::wall),
           length_unit_(scales.length_unit) {}
 
     template <class T>
@@ -71,6 +73,7 @@ struct RiemannFlux {
       const double p = std::max(pressure_(0, i), std::numeric_limits<double>::min()), c = sound_speed_(0, i);
       places[pressure] = static_cast<T>(p);
       places[gamma] = static_cast<T>(std::clamp(density_(0, i) * c * c / p, least_gamma, most_gamma));
+      places[wall] = wall_.count == 0 ? T(0) : static_cast<T>(wall_(0, i));
       for (int k = density_gradient; k < size; ++k) places[k] = T(0);
       if (density_gradient_.count == 0) return;
       for (std::size_t a = 0; a < Dim; ++a) {
@@ -97,7 +100,7 @@ struct RiemannFlux {
     /// Matter without pressure has no adiabatic index; gases have one between these.
     static constexpr double least_gamma = 1 + 1e-6, most_gamma = 10;
     const Particles<Dim>& particles_;
-    Columns<Dim, const double> pressure_, density_, sound_speed_, density_gradient_, pressure_gradient_, correction_;
+    Columns<Dim, const double> pressure_, density_, sound_speed_, density_gradient_, pressure_gradient_, correction_, wall_;
     double length_unit_;
   };
 
@@ -115,6 +118,7 @@ struct RiemannFlux {
           expansion_(load(R::expansion)),
           pressure_(load(R::flux + Places::pressure)),
           gamma_(load(R::flux + Places::gamma)),
+          wall_(load(R::flux + Places::wall)),
           per_lattice_(static_cast<T>(1 / settings.godunov->lattice_gradient)) {
       for (int a = 0; a < Dim; ++a) {
         density_gradient_[a] = load(R::flux + Places::density_gradient + a);
@@ -138,7 +142,7 @@ struct RiemannFlux {
         star = exact_star(states.ours, states.theirs, states.apart);
       else
         star = approximate_star(states.ours, states.theirs, states.apart);
-      flux.pressure = T(2) * (expansion_ * j[R::expansion]) * star.pressure;
+      flux.pressure = T(2) * (expansion_ * j[R::expansion]) * (T(1) - wall_ * theirs[Places::wall]) * star.pressure;
       // u* beyond the mean of both velocities along the pair.
       const V drift = T(0.5) * ((star.faster_right - star.faster_left) + states.faster);
       flux.drift = drift * per_r * pair_detail::dot(flux.face, p.dx);
@@ -223,7 +227,7 @@ struct RiemannFlux {
     }
 
     GodunovSettings settings_;
-    V density_, sound_speed_, expansion_, pressure_, gamma_;
+    V density_, sound_speed_, expansion_, pressure_, gamma_, wall_;
     T per_lattice_;
     V density_gradient_[Dim], pressure_gradient_[Dim], strain_[symmetric_size<Dim>], correction_[Dim * Dim];
   };

@@ -59,7 +59,7 @@ struct ShapeReport {
 
 template <int Dim>
 struct Sph final : Package {
-  std::string_view name() const override { return "particles"; }
+  std::string_view name() const override { return title; }
   Vote vote() override;
   void advance(double dt) override;
   void check_health() const override;
@@ -80,6 +80,7 @@ struct Sph final : Package {
   /// Runs all stages on the present (predicted) state.
   void evaluate();
 
+  std::string title = "particles";  ///< "gas" in a hybrid, where they are not all the particles there are, nor for long
   Scene scene;
   std::vector<Material> materials;  ///< by material number (Label::material)
   std::vector<int> body_material;   ///< material number of each body

@@ -258,7 +258,8 @@ TEST(FluxCorrection, LeadsCellsToWhatIsWantedAndConserves) {
   const auto middle = static_cast<std::size_t>(place[grid.box().index({12, 12})]);
   wanted[middle] = {1.5, 0.1, -0.05, 2.6};
   wanted[static_cast<std::size_t>(place[grid.box().index({13, 12})])] = {1.3, -0.1, 0.05, 2.4};
-  const CellChanges<2> changes = correct_by_fluxes(grid, active, place, wanted);
+  const CellChanges<2> changes =
+      correct_by_fluxes(grid, active, place, std::vector<SolidShare<2>>(active.size()), wanted);
   double sum[4] = {}, beside = 0;
   for (std::size_t k = 0; k < changes.cells.size(); ++k)
     for (std::size_t c = 0; c < 4; ++c) {
@@ -271,6 +272,157 @@ TEST(FluxCorrection, LeadsCellsToWhatIsWantedAndConserves) {
     }
   for (const double s : sum) EXPECT_NEAR(s, 0, 1e-14);
   EXPECT_LT(beside, 0.002);
+}
+
+/// A plate of aluminium across a channel of air, 0.2 m thick, its left face at 0.4 m.
+std::string channel(double spacing, const std::string& plate, const std::string& other_bodies = "") {
+  return R"([scene]
+name = "channel"
+dimension = 2
+[resolution]
+spacing = ")" +
+         std::to_string(spacing) + R"( m"
+[time]
+end = "1.2 ms"
+[gas]
+density = "1.4 kg/m^3"
+pressure = "0.1 MPa"
+[[bodies]]
+name = "plate"
+material = "aluminium"
+shape = "rectangle"
+center = ["0.5 m", "0 m"]
+size = ["0.2 m", "0.4 m"]
+)" + plate +
+         other_bodies +
+         R"(
+[boundary]
+x = "open"
+y = "periodic"
+min = ["-1.6 m", "-0.2 m"]
+max = ["1.6 m", "0.2 m"]
+[numerics]
+scheme = "hybrid"
+)";
+}
+
+/// A shock of Mach 3, 0.4 m in front of the plate.
+const std::string driver = R"([[bodies]]
+name = "driver"
+material = "air"
+shape = "rectangle"
+center = ["-0.8 m", "0 m"]
+size = ["1.6 m", "0.4 m"]
+density = "5.4 kg/m^3"
+pressure = "1.03333333 MPa"
+velocity = ["702.728 m/s", "0 m/s"]
+)";
+
+double momentum_of(const Hybrid<2>& hybrid) { return hybrid.solids()->particles().conserved().momentum[0]; }
+
+void go_to(Hybrid<2>& hybrid, double time) {
+  while (hybrid.clock.time < time) step(hybrid, hybrid.particles().scene, time - hybrid.clock.time);
+}
+
+/// Mean force per area on the plate from 0.7 to 1.1 ms: the shock has been there since 0.42 ms [Pa].
+double force_of_a_shock(double spacing) {
+  const auto hybrid = make_hybrid<2>(channel(spacing, "", driver));
+  go_to(*hybrid, 0.7e-3);
+  const double before = momentum_of(*hybrid), since = hybrid->clock.time;
+  go_to(*hybrid, 1.1e-3);
+  expect_closed(*hybrid);
+  return (momentum_of(*hybrid) - before) / (hybrid->clock.time - since) / 0.4;
+}
+
+/// It is thrown back with 5 times the pressure behind it [Rankine and Hugoniot, twice].
+TEST(HybridSolids, AShockIsThrownBackByAPlate) {
+  const double exact = 5 * 1.033333e6 - 1e5;
+  const double coarse = force_of_a_shock(0.025) / exact, fine = force_of_a_shock(0.0125) / exact;
+  EXPECT_NEAR(coarse, 1, 0.025);
+  EXPECT_NEAR(fine, 1, 0.015);
+}
+
+/// Mean force on a plate that is driven at 300 m/s, over that of the shock before and the rarefaction behind it.
+double relative_force_on_a_piston(double spacing) {
+  const auto hybrid = make_hybrid<2>(channel(spacing, "driven = true\nvelocity = [\"-300 m/s\", \"0 m/s\"]\n"));
+  go_to(*hybrid, 0.4e-3);
+  expect_closed(*hybrid);
+  const double mach = 300 / std::sqrt(1.4 * 1e5 / 1.4), slope = 0.6 * mach;
+  const double before = 1 + 1.4 * mach * (slope + std::sqrt(1 + slope * slope)), behind = std::pow(1 - 0.2 * mach, 7);
+  return hybrid->external.impulse[0] / hybrid->clock.time / 0.4 / (-(before - behind) * 1e5);
+}
+
+TEST(HybridSolids, APistonFeelsItsGas) {
+  const double coarse = relative_force_on_a_piston(0.025), fine = relative_force_on_a_piston(0.0125);
+  EXPECT_NEAR(coarse, 1, 0.03);
+  EXPECT_NEAR(fine, 1, 0.015);
+}
+
+/// A block of aluminium in the middle of gas.
+const std::string block = R"([scene]
+name = "block"
+dimension = 2
+[resolution]
+spacing = "0.025 m"
+[time]
+end = "10 ms"
+[gas]
+density = "1.4 kg/m^3"
+pressure = "0.1 MPa"
+[[bodies]]
+name = "block"
+material = "aluminium"
+shape = "rectangle"
+center = ["0 m", "0 m"]
+size = ["0.3 m", "0.4 m"]
+[boundary]
+x = "open"
+y = "open"
+min = ["-1.2 m", "-1.2 m"]
+max = ["1.2 m", "1.2 m"]
+[numerics]
+scheme = "hybrid"
+)";
+
+/// Gas presses from all sides, and nothing moves but what elastic waves of a tenth of a megapascal do.
+TEST(HybridSolids, ABlockInGasAtRestStays) {
+  const auto hybrid = make_hybrid<2>(block);
+  const double mass = hybrid->solids()->particles().conserved().mass;
+  take_steps(*hybrid, hybrid->particles().scene, 20);
+  const Totals solid = hybrid->solids()->particles().conserved();
+  const double elastic = 1e5 / (2700 * 5000.0);  // m/s, of such a wave
+  EXPECT_LT(solid.momentum.norm() / mass, 1e-10 * elastic);
+  EXPECT_LT(std::sqrt(2 * solid.kinetic / mass), 0.2 * elastic);
+  double fastest = 0;
+  for (std::size_t i = 0; i < hybrid->grid().box().size(); ++i)
+    fastest = std::max(fastest, hybrid->grid().state(i).velocity.norm());
+  EXPECT_LT(fastest, 5e-4 * 316);  // of the speed of sound
+  EXPECT_GT(fastest, 0);
+  expect_closed(*hybrid);
+}
+
+/// Whatever a block in flight loses the gas has, while cells of the zone come and go with it.
+TEST(HybridSolids, LedgersCloseWhileABlockFlies) {
+  const auto hybrid = make_hybrid<2>(block, {"bodies.block.velocity=[\"300 m/s\", \"100 m/s\"]"});
+  const double before = momentum_of(*hybrid);
+  take_steps(*hybrid, hybrid->particles().scene, 40);
+  EXPECT_LT(momentum_of(*hybrid), before - 0.4 * 1e5 * hybrid->clock.time);
+  expect_closed(*hybrid);
+}
+
+TEST(HybridSolids, NeedGasAroundThemAndFineParticles) {
+  const auto message = [](const std::string& toml, const std::vector<std::string>& overrides) {
+    try {
+      make_hybrid<2>(toml, overrides);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(message(block, {"bodies.block.spacing_factor=2"}).find("expected at most 1, got 2"), std::string::npos);
+  std::string alone = block;
+  alone.replace(alone.find("[gas]"), alone.find("[[bodies]]") - alone.find("[gas]"), "");
+  EXPECT_NE(message(alone, {}).find("expected [gas] around a solid"), std::string::npos);
 }
 
 TEST(Hybrid, RefusesRatiosThatAreNoPowerOfTwo) {
