@@ -31,7 +31,7 @@ class Canvas {
               bool bold = false);
   /// Stretches width * height colours (0xRRGGBB, top row first) over the box.
   void picture(Box box, std::span<const std::uint32_t> rgb, int width, int height);
-  /// Throws InputError if the file cannot be written.
+  /// Throws OutputError if the file cannot be written.
   void save_png(const std::filesystem::path& file) const;
 
  private:

@@ -30,7 +30,7 @@ struct FrameText {
 /// Pixels one of `panels` panels gets in a picture of the given size: sample with such a grid for a sharp picture.
 std::array<int, 2> panel_pixels(int width, int height, int panels);
 
-/// Paints the panels into a PNG of width x height pixels. Throws InputError if it cannot be written.
+/// Paints the panels into a PNG of width x height pixels. Throws OutputError if it cannot be written.
 void write_panels(const std::filesystem::path& file, int width, int height, const PixelGrid& grid,
                   std::span<const Panel> panels, const FrameText& text);
 

@@ -111,6 +111,8 @@ class FragmentTracker {
   /// Goes on from the numbers of a checkpoint: `number` (0 is dust) and `id` per particle, `last_number` as it was.
   void restore(std::span<const std::int32_t> id, std::span<const std::int32_t> number, std::int32_t last_number);
   std::int32_t last_number() const { return last_number_; }
+  /// Number of the fragment by id of the particle, as of the last update; dust left out.
+  const std::unordered_map<std::int32_t, std::int32_t>& number_of_id() const { return number_of_id_; }
 
  private:
   std::vector<std::int32_t> stable_numbers(const FragmentInput& in, const FragmentTable& table);

@@ -16,7 +16,8 @@ struct Job {
   std::string resolved;   ///< text of resolved.toml
   bool catalyst = false;  ///< images by ParaView: wanted, and possible here
   std::filesystem::path folder;
-  bool restart = false, overwrite = false;
+  bool restart = false, overwrite = false, accept_changes = false;
+  std::filesystem::path from;  ///< checkpoint to go on from; empty: the latest
 };
 
 /// Reads scene and materials and nothing more. Throws InputError with what is wrong in them.

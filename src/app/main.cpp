@@ -2,9 +2,11 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <new>
+#include <sstream>
 #include <system_error>
 
 #include "app/log.hpp"
@@ -13,6 +15,7 @@
 #include "insitu/gl_probe.hpp"
 #include "material/material_reader.hpp"
 #include "model/package_kind.hpp"
+#include "scene/scene_reader.hpp"
 
 namespace {
 
@@ -28,6 +31,28 @@ void limit_spinning(char** argv) {
   execv("/proc/self/exe", argv);
 }
 
+/// Commands of the script in the source tree, which names them in EJECTA_LAUNCHER: lines that begin with two spaces,
+/// the command and what it does.
+std::string launcher_help() {
+  const char* lines = std::getenv("EJECTA_LAUNCHER");
+  return lines ? fmt::format("\n\nIn the source tree also:\n{}", lines) : "";
+}
+
+/// What to say if the first word is no command; empty if it is one.
+std::string mistyped(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return "";
+  std::vector<std::string> commands;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    commands.push_back(command->get_name());
+  std::istringstream lines(launcher_help());
+  for (std::string line; std::getline(lines, line);)
+    if (line.starts_with("  ")) commands.push_back(line.substr(2, line.find(' ', 2) - 2));
+  if (std::ranges::find(commands, argv[1]) != commands.end()) return "";
+  const std::string near = ejecta::nearest_word(argv[1], commands);
+  return fmt::format("expected a command, got \"{}\"{}", argv[1],
+                     near.empty() ? "; --help lists them" : ", did you mean " + near + "?");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -41,8 +66,11 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 done; 2 something in the input is wrong (nothing was written); 3 the simulation failed or a file\n"
-      "cannot be written (results so far are kept); 4 stopped by a signal (results are complete up to there, and\n"
-      "--restart goes on).");
+      "could not be written (results so far are kept); 4 stopped by a signal or by control (results are complete up "
+      "to\n"
+      "there, and --restart goes on)." +
+      launcher_help());
+  app.set_version_flag("--version", fmt::format("ejecta {}", EJECTA_VERSION));
   RunOptions options;
   int threads = 0, frames_per_second = 0;
   std::string folder, section;
@@ -59,6 +87,11 @@ int main(int argc, char** argv) {
   run->add_flag("--restart", options.restart,
                 "go on from the last checkpoint in the run folder, with the same scene but for scene.title, time.*,\n"
                 "run.threads, [insitu] and [output] without peaks");
+  run->add_option(
+      "--from", options.from,
+      "with --restart: the checkpoint, failed_*.h5 or snapshot to go on from; later ones are kept as *.aside");
+  run->add_flag("--accept-changes", options.accept_changes,
+                "with --restart: go on though the scene differs, and say in what");
   run->add_flag("--overwrite", options.overwrite, "replace an earlier run in the run folder; files that no run has written stay");
   overrides(run);
   CLI::App* check = app.add_subcommand("check", "validate a scene by setting it up as a run does (as long as a few steps, and its\n"
@@ -78,6 +111,14 @@ int main(int argc, char** argv) {
   CLI::App* describe =
       app.add_subcommand("describe", "every key of a scene or material: unit, range, default, meaning");
   describe->add_option("section", section, "one section, e.g. numerics or materials");
+  std::vector<std::string> words;
+  CLI::App* control = app.add_subcommand("control", "ask something of the run that goes on in a folder");
+  control->add_option("folder", folder, "run folder")->required();
+  control
+      ->add_option("line", words,
+                   "stop; pause; resume; checkpoint: write one now; frame: draw one now; end=TIME: of the run;\n"
+                   "every=TIME: between frames")
+      ->required();
   CLI::App* movie = app.add_subcommand("movie", "make the movies of a run folder again");
   movie->add_option("folder", folder, "run folder")->required();
   movie->add_option("--fps", frames_per_second, "frames per second (default: about eight seconds in all)");
@@ -88,6 +129,10 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
+    if (const std::string words_of_help = mistyped(app, argc, argv); !words_of_help.empty()) {
+      fmt::print(stderr, "ejecta: {}\n", words_of_help);
+      return exit_code::wrong_input;
+    }
     const int code = app.exit(error);
     return code == 0 ? exit_code::done : exit_code::wrong_input;
   }
@@ -102,6 +147,7 @@ int main(int argc, char** argv) {
       return reference_command(reference_options);
     }
     if (*check) return check_command(options.scene_file, options.overrides);
+    if (*control) return control_command(folder, words);
     if (*movie) return movie_command(folder, frames_per_second);
     if (*replay) return replay_command(folder, options.out);
     if (*describe) fmt::print("{}", reference(section, package_sections()));

@@ -9,7 +9,7 @@ namespace exit_code {
 inline constexpr int done = 0;
 inline constexpr int wrong_input = 2;  ///< nothing has been written
 inline constexpr int failed = 3;       ///< the simulation, or the writing of its results; what there is so far is kept
-inline constexpr int stopped = 4;      ///< by a signal; results so far are complete and --restart goes on
+inline constexpr int stopped = 4;      ///< by a signal or control; results so far are complete and --restart goes on
 }  // namespace exit_code
 
 /// What the command line of `ejecta run` says.
@@ -18,6 +18,8 @@ struct RunOptions {
   std::string out;                     ///< run folder; empty: runs/<scene.name>
   std::vector<std::string> overrides;  ///< key=value
   bool restart = false;                ///< go on from the last checkpoint in the run folder
+  std::string from;                    ///< the checkpoint to go on from instead
+  bool accept_changes = false;         ///< go on even if the scene differs from that of the checkpoint
   bool overwrite = false;              ///< replace an earlier run in the run folder
 };
 
@@ -38,6 +40,8 @@ int check_command(const std::string& scene_file, const std::vector<std::string>&
 int movie_command(const std::string& folder, int frames_per_second);
 int replay_command(const std::string& folder, const std::string& out);
 int info_command();
+/// Leaves a line of control for the run that goes on in the folder.
+int control_command(const std::string& folder, const std::vector<std::string>& words);
 
 /// The folder of shipped material files.
 std::string material_library();

@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "app/control.hpp"
 #include "app/job.hpp"
 #include "app/log.hpp"
 #include "app/options.hpp"
@@ -62,6 +63,16 @@ int movie_command(const std::string& folder, int frames_per_second) {
   for (const Movie& movie : report.movies) fmt::print("{} ({} frames)\n", movie.file.string(), movie.frames);
   for (const std::string& problem : report.problems) spdlog::error("{}", problem);
   return report.movies.empty() ? 2 : 0;
+}
+
+int control_command(const std::string& folder, const std::vector<std::string>& words) {
+  constexpr double patience = 10;  // s
+  std::string line;
+  for (const std::string& word : words) line += (line.empty() ? "" : " ") + word;
+  const std::string answer = send_control(folder, line, patience);
+  fmt::print("{}\n",
+             answer.empty() ? "the run has not answered yet: it does at the end of its step, in run.log" : answer);
+  return exit_code::done;
 }
 
 int info_command() {

@@ -19,8 +19,10 @@ int replay(const Scene& scene, const Materials& materials, const Checkpoint& che
   Simulation sim = set_up_simulation(scene, materials.list);
   restore(sim, checkpoint);
   std::filesystem::create_directories(out);
-  const std::unique_ptr<Frames> frames = make_frames(sim, out, gl_works());
+  Outputs outputs;
+  const std::unique_ptr<Frames> frames = make_frames(sim, out, outputs, gl_works());
   frames->observe(sim, true);
+  if (!outputs.missing().empty()) return exit_code::failed;
   spdlog::info("{} images in {}", frames->images(), (out / "images").string());
   return 0;
 }

@@ -5,11 +5,15 @@
 #include <cstdlib>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "app/resources.hpp"
+#include "app/run_lock.hpp"
 #include "base/errors.hpp"
+#include "observe/schedule.hpp"
 #include "output/checkpoint.hpp"
+#include "output/monitor.hpp"
 
 namespace ejecta {
 
@@ -24,14 +28,16 @@ struct Written {
 };
 const std::array written{
     Written{"monitor", {"index.html", "status.json", "status.js"}},
-    Written{"checkpoints", {"checkpoint_#.h5", "failed_#.h5"}},
+    Written{"checkpoints", {"checkpoint_#.h5", "checkpoint_#.h5.aside", "failed_#.h5"}},
     Written{"snapshots", {"snapshot_#.h5"}},
-    Written{"images", {"data.csv", "*_#.png"}},
+    Written{"lineouts", {"lineout_#.csv"}},
+    Written{"images", {"data.csv", "*_#.png", ".room"}},
     Written{"figures",
             {"compaction.*", "crush_curve.csv", "fragment_distribution.*", "largest_fragment.*", "energy.*"}},
     Written{"",
-            {"resolved.toml", "run.log", "insitu.log", "history.csv", "timers.csv", "fragments.csv",
-             "fragment_distribution.csv", "largest_fragment.csv", "summary.json", "movie_*.mp4"}}};
+            {"resolved.toml", "run.log", "insitu.log", "history.csv", "timers.csv", "fragments.csv", "shock.csv",
+             "fragment_distribution.csv", "largest_fragment.csv", "summary.json", "movie_*.mp4", "control", "control.#",
+             "control.taken"}}};
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -86,9 +92,16 @@ const Written written_by_reference{"", {"profile.csv", "shock.csv"}};
 void check_run_folder(const RunOptions& options, const fs::path& folder) {
   if (fs::exists(folder) && !fs::is_directory(folder))
     throw InputError(folder.string() + ": expected a folder for the run, got a file");
-  const bool filled = fs::exists(folder) && !fs::is_empty(folder);
+  if (const auto other = run_in(folder))
+    throw InputError(folder.string() + ": expected a folder that no run is using, got that of " + *other);
+  const bool filled = fs::exists(folder) && std::ranges::any_of(fs::directory_iterator(folder), [](const auto& entry) {
+                        return entry.path().filename() != "run.lock";  // of a run that was killed before it began
+                      });
   if (options.restart) {
-    if (!latest_checkpoint(folder / "checkpoints"))
+    if (!options.from.empty()) {
+      if (!fs::is_regular_file(options.from))
+        throw InputError("--from: expected a checkpoint, found no file " + options.from);
+    } else if (!latest_checkpoint(folder / "checkpoints"))
       throw InputError(folder.string() + ": expected a checkpoint to restart from, found none");
   } else if (options.overwrite) {
     if (const auto reason = why_precious(options, folder))
@@ -118,6 +131,27 @@ void clear_run_folder(const fs::path& folder) {
     for (const fs::path& file : files) fs::remove(file);
     if (!place.folder.empty() && fs::is_empty(inside) && !fs::is_symlink(inside)) fs::remove(inside);
   }
+}
+
+int remove_later_files(const fs::path& folder, const Clock& clock, const Scene& scene) {
+  const bool frame_now = FrameSchedule(scene.time_end, scene.insitu.frames, scene.output.times).falls_on(clock.time);
+  const bool lineout_now = OutputTimes(scene.output.times).hold(clock.time);
+  std::vector<fs::path> files;
+  for (const MonitorView& view : read_views(folder))
+    for (const MonitorFrame& frame : view.frames)
+      if (frame.step > clock.step || (frame.step == clock.step && !frame_now)) files.push_back(folder / frame.file);
+  std::error_code none;
+  for (const auto& [place, begin, now] :
+       {std::tuple{"snapshots", "snapshot_", true}, {"lineouts", "lineout_", lineout_now}})
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder / place, none)) {
+      const std::string name = entry.path().filename().string();
+      if (!name.starts_with(begin)) continue;
+      const std::int64_t step = std::atoll(name.c_str() + std::string_view(begin).size());
+      if (step > clock.step || (step == clock.step && !now)) files.push_back(entry.path());
+    }
+  int removed = 0;
+  for (const fs::path& file : files) removed += fs::remove(file, none) ? 1 : 0;
+  return removed;
 }
 
 void check_reference_folder(const fs::path& folder) {

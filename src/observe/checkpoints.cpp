@@ -1,6 +1,7 @@
 #include "observe/checkpoints.hpp"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <limits>
@@ -14,9 +15,9 @@ namespace ejecta {
 
 namespace {
 
-/// A young run is worth a checkpoint sooner: the time between them doubles from this share of the interval on, so that
-/// a crash costs little more than half of the run, and never more than the interval.
-constexpr double first_wait = 0.1;
+constexpr double first_wait = 60;  ///< s: a young run is worth a checkpoint sooner
+constexpr double retry_wait = 30;  ///< s: after one that could not be written
+constexpr double never = std::numeric_limits<double>::infinity();
 
 /// Whether a restart may give the key another value: nothing that the particles have been through depends on it.
 bool may_change(const std::string& key) {
@@ -39,7 +40,8 @@ CheckpointView checkpoint_view(const Simulation& sim, const std::string& resolve
   return view;
 }
 
-void check_same_scene(const Checkpoint& checkpoint, const std::string& resolved, const std::string& file) {
+std::vector<ChangedKey> changed_keys(const Checkpoint& checkpoint, const std::string& resolved,
+                                     const std::string& file) {
   const Document then = parse_document(checkpoint.scene, checkpoint.file.string()),
                  now = parse_document(resolved, file);
   std::set<std::string> keys;
@@ -49,11 +51,18 @@ void check_same_scene(const Checkpoint& checkpoint, const std::string& resolved,
     const auto item = document.items.find(key);
     return item == document.items.end() ? std::string("no value") : to_text(item->second.literal);
   };
-  std::vector<std::string> problems;
+  std::vector<ChangedKey> changed;
   for (const std::string& key : keys)
     if (const std::string old = value(then, key), given = value(now, key); old != given && !may_change(key))
-      problems.push_back(fmt::format("{}: {}: expected {} as in the checkpoint {}, got {}", file, with_names(now, key),
-                                     old, checkpoint.file.filename().string(), given));
+      changed.push_back({with_names(now, key), old, given});
+  return changed;
+}
+
+void check_same_scene(const Checkpoint& checkpoint, const std::string& resolved, const std::string& file) {
+  std::vector<std::string> problems;
+  for (const ChangedKey& c : changed_keys(checkpoint, resolved, file))
+    problems.push_back(fmt::format("{}: {}: expected {} as in the checkpoint {}, got {}", file, c.key, c.then,
+                                   checkpoint.file.filename().string(), c.now));
   if (!problems.empty()) throw InputError(problems);
 }
 
@@ -73,22 +82,27 @@ double dump_bytes(const Simulation& sim) {
   return static_cast<double>(bytes);
 }
 
-void Checkpoints::write_failed(const Simulation& sim) const {
-  std::filesystem::create_directories(folder_ / "checkpoints");
-  write_checkpoint(folder_ / fmt::format("checkpoints/failed_{:06d}.h5", sim.clock.step),
-                   checkpoint_view(sim, resolved_));
-}
-
-Checkpoints::Checkpoints(std::filesystem::path folder, std::string resolved, const Scene& scene,
-                         std::optional<double> resume_at)
+Checkpoints::Checkpoints(std::filesystem::path folder, std::string resolved, const Scene& scene, Frames& frames,
+                         Outputs& outputs, const std::optional<Clock>& resume_at)
     : folder_(std::move(folder)),
       resolved_(std::move(resolved)),
-      wait_(scene.output.checkpoint_interval * first_wait),
-      snapshot_interval_(scene.output.snapshots > 0 ? scene.time_end / scene.output.snapshots
-                                                    : std::numeric_limits<double>::infinity()),
+      frames_(frames),
+      outputs_(outputs),
+      wait_(std::min(scene.output.checkpoint_interval, first_wait)),
+      every_(is_set(scene.output.checkpoint_every) ? scene.output.checkpoint_every : never),
+      next_(every_),
+      snapshot_interval_(scene.output.snapshots > 0 ? scene.time_end / scene.output.snapshots : never),
       next_snapshot_(snapshot_interval_),
       times_(scene.output.times) {
-  if (resume_at) pass_snapshots(*resume_at);
+  if (!resume_at) return;
+  pass_snapshots(resume_at->time);
+  while (next_ <= resume_at->time) next_ += every_;
+}
+
+CheckpointView Checkpoints::view(const Simulation& sim) {
+  CheckpointView all = checkpoint_view(sim, resolved_);
+  frames_.save(all);
+  return all;
 }
 
 bool Checkpoints::pass_snapshots(double time) {
@@ -98,20 +112,36 @@ bool Checkpoints::pass_snapshots(double time) {
 }
 
 void Checkpoints::observe(Simulation& sim, bool last) {
-  const double interval = sim.scene.output.checkpoint_interval;
-  const bool due = is_set(interval) && std::chrono::duration<double>(clock::now() - written_).count() > wait_;
-  if (due || last) {
-    sim.timers.time("checkpoints",
-                    [&] { write_rotating_checkpoint(folder_ / "checkpoints", checkpoint_view(sim, resolved_)); });
-    written_ = clock::now();
-    wait_ = std::min(2 * wait_, interval);
-  }
+  const double waited = std::chrono::duration<double>(WallClock::now() - written_).count();
+  const bool by_wall = is_set(sim.scene.output.checkpoint_interval) && waited > wait_;
+  if (by_wall || sim.clock.time >= next_ || asked_ || last) write(sim);
   if (pass_snapshots(sim.clock.time))
     sim.timers.time("snapshots", [&] {
-      std::filesystem::create_directories(folder_ / "snapshots");
-      write_checkpoint(folder_ / fmt::format("snapshots/snapshot_{:06d}.h5", sim.clock.step),
-                       checkpoint_view(sim, resolved_));
+      outputs_.write("snapshots", Outputs::Loss::for_good, [&] {
+        write_checkpoint(folder_ / fmt::format("snapshots/snapshot_{:06d}.h5", sim.clock.step), view(sim));
+      });
     });
+}
+
+void Checkpoints::write(Simulation& sim) {
+  std::filesystem::path file;
+  const bool written = outputs_.write("checkpoints", Outputs::Loss::until_next, [&] {
+    sim.timers.time("checkpoints", [&] {
+      file = write_rotating_checkpoint(folder_ / "checkpoints", view(sim), sim.scene.output.checkpoints_kept);
+    });
+  });
+  if (asked_ && written) spdlog::info("checkpoint {} as asked", file.filename().string());
+  asked_ = false;
+  written_ = WallClock::now();
+  const double interval = sim.scene.output.checkpoint_interval;
+  wait_ = written ? interval : std::min(interval, retry_wait);
+  while (next_ <= sim.clock.time) next_ += every_;
+}
+
+void Checkpoints::write_failed(const Simulation& sim) {
+  outputs_.write("checkpoints", Outputs::Loss::for_good, [&] {
+    write_checkpoint(folder_ / fmt::format("checkpoints/failed_{:06d}.h5", sim.clock.step), view(sim));
+  });
 }
 
 }  // namespace ejecta

@@ -8,7 +8,7 @@
 namespace ejecta {
 
 template <int Dim>
-void CompactionPlot::collect(const Particles<Dim>& p, std::span<const Material> materials) {
+void CompactionPlot::collect(const Particles<Dim>& p, std::span<const Material> materials, bool extra) {
   constexpr std::size_t samples_per_frame = 400;  // particles of each material
   for (std::size_t m = 0; m < materials.size(); ++m) {
     if (!materials[m].porosity) continue;
@@ -23,6 +23,21 @@ void CompactionPlot::collect(const Particles<Dim>& p, std::span<const Material> 
       loading_.push_back(std::abs(alpha - curve.alpha(pressure)) < 1e-6 ? 1 : 0);
     }
   }
+  if (!extra) scheduled_ = pressure_.size();
+}
+
+void CompactionPlot::save(CheckpointView& view) const {
+  view.columns.push_back({"compaction.pressure", "Pa", std::span(pressure_).first(scheduled_)});
+  view.columns.push_back({"compaction.distension", "1", std::span(distension_).first(scheduled_)});
+  view.labels.push_back({"compaction.loading", "1", std::span(loading_).first(scheduled_)});
+}
+
+void CompactionPlot::load(const Checkpoint& checkpoint) {
+  if (!checkpoint.columns.contains("compaction.pressure")) return;  // of an earlier version
+  pressure_ = checkpoint.column("compaction.pressure");
+  distension_ = checkpoint.column("compaction.distension");
+  loading_ = checkpoint.label("compaction.loading");
+  scheduled_ = pressure_.size();
 }
 
 void CompactionPlot::write(const std::filesystem::path& run_folder, std::span<const Material> materials) const {
@@ -36,12 +51,11 @@ void CompactionPlot::write(const std::filesystem::path& run_folder, std::span<co
     pressure.push_back(first * std::pow(last / first, static_cast<double>(k) / points));
     distension.push_back(curve.alpha(pressure.back()));
   }
-  std::filesystem::create_directories(run_folder / "figures");
   write_crush_curve(run_folder / "figures/crush_curve.csv", pressure, distension);
   write_compaction(run_folder / "figures/compaction.csv", pressure_, distension_, loading_);
 }
 
-template void CompactionPlot::collect<2>(const Particles<2>&, std::span<const Material>);
-template void CompactionPlot::collect<3>(const Particles<3>&, std::span<const Material>);
+template void CompactionPlot::collect<2>(const Particles<2>&, std::span<const Material>, bool);
+template void CompactionPlot::collect<3>(const Particles<3>&, std::span<const Material>, bool);
 
 }  // namespace ejecta

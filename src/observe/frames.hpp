@@ -10,9 +10,11 @@
 #include "insitu/catalyst_bridge.hpp"
 #include "insitu/image_index.hpp"
 #include "insitu/pipelines.hpp"
+#include "observe/outputs.hpp"
 #include "observe/painter.hpp"
 #include "observe/schedule.hpp"
 #include "observe/view.hpp"
+#include "output/checkpoint.hpp"
 #include "simulation/simulation.hpp"
 
 namespace ejecta {
@@ -30,7 +32,13 @@ class Frames : public Observer {
   double next_time() const override { return schedule_.next(); }
   void observe(Simulation& sim, bool last) override;
   /// After a restart: the next frame is the first one later than the checkpoint.
-  virtual void resume(const Simulation& sim);
+  virtual void resume(const Simulation& sim, const Checkpoint& checkpoint);
+  /// Adds what the frames to come need of those so far. Valid until the next frame.
+  virtual void save(CheckpointView&) {}
+  /// The end of this step is drawn too.
+  void ask() { schedule_.ask(); }
+  /// From now on a frame every `interval` of simulated time [s].
+  void change_interval(const Simulation& sim, double interval) { schedule_.change(sim.clock.time, interval); }
 
   /// Fragments as of the last frame; nothing if the scene does not ask for them.
   const std::optional<FragmentTable>& fragments() const { return fragments_; }
@@ -44,7 +52,7 @@ class Frames : public Observer {
 
  protected:
   /// `told`: what else the pipelines are to know. With `catalyst` they draw, otherwise Ejecta's own painter.
-  Frames(const Simulation& sim, std::filesystem::path folder, bool catalyst, const PicturePlan& plan,
+  Frames(const Simulation& sim, std::filesystem::path folder, Outputs& outputs, bool catalyst, const PicturePlan& plan,
          PipelineSettings told);
 
   /// What has to be found out for a frame, drawn or not.
@@ -56,15 +64,19 @@ class Frames : public Observer {
   virtual SampledImage make_slice() = 0;
   /// After a frame.
   virtual void keep(bool /*last*/) {}
+  /// Whether there is a frame at this time [s] whoever stops or asks.
+  bool on_schedule(double time) const { return schedule_.falls_on(time); }
   bool reads(const char* channel) const { return bridge_->reads(channel); }
 
   std::filesystem::path folder_;
+  Outputs& outputs_;
   View view_;
   PixelGrid slice_grid_;
   Painter painter_;
   std::optional<FragmentTable> fragments_;
 
  private:
+  void draw(Simulation& sim);
   void draw_with_catalyst(Simulation& sim);
   void draw_without_gl(const Simulation& sim);
 
@@ -77,6 +89,7 @@ class Frames : public Observer {
 };
 
 /// Those of the solver that the simulation has, which must outlive them.
-std::unique_ptr<Frames> make_frames(const Simulation& sim, const std::filesystem::path& folder, bool catalyst);
+std::unique_ptr<Frames> make_frames(const Simulation& sim, const std::filesystem::path& folder, Outputs& outputs,
+                                    bool catalyst);
 
 }  // namespace ejecta

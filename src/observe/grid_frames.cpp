@@ -98,8 +98,8 @@ PixelGrid within(PixelGrid pixels, const Box<Dim>& box) {
 
 template <int Dim>
 GridFrames<Dim>::GridFrames(const Simulation& sim, const Grid<Dim>& grid, const std::filesystem::path& folder,
-                            bool catalyst)
-    : Frames(sim, folder, catalyst, plan_of(sim, grid), told_of<Dim>(sim)),
+                            Outputs& outputs, bool catalyst)
+    : Frames(sim, folder, outputs, catalyst, plan_of(sim, grid), told_of<Dim>(sim)),
       grid_(grid),
       hybrid_(find_package<Hybrid<Dim>>(sim)),
       solids_(solids_of(hybrid_)) {
@@ -172,8 +172,8 @@ void GridFrames<Dim>::look(Simulation& sim) {
 }
 
 template <int Dim>
-void GridFrames<Dim>::resume(const Simulation& sim) {
-  Frames::resume(sim);
+void GridFrames<Dim>::resume(const Simulation& sim, const Checkpoint& checkpoint) {
+  Frames::resume(sim, checkpoint);
   if (solids_ && sim.scene.fragments.enabled)
     fragments_ = tracker_.update(fragment_input(*solids_), sim.scene.fragments);
 }

@@ -10,9 +10,10 @@ namespace ejecta {
 template <int Dim>
 class GridFrames final : public Frames {
  public:
-  GridFrames(const Simulation& sim, const Grid<Dim>& grid, const std::filesystem::path& folder, bool catalyst);
+  GridFrames(const Simulation& sim, const Grid<Dim>& grid, const std::filesystem::path& folder, Outputs& outputs,
+             bool catalyst);
 
-  void resume(const Simulation& sim) override;
+  void resume(const Simulation& sim, const Checkpoint& checkpoint) override;
 
  private:
   void look(Simulation& sim) override;

@@ -31,20 +31,50 @@ PipelineSettings pipeline_settings(const Sph<Dim>& sph) {
 
 template <int Dim>
 ParticleFrames<Dim>::ParticleFrames(const Simulation& sim, const Sph<Dim>& sph, const std::filesystem::path& folder,
-                                    bool catalyst)
-    : Frames(sim, folder, catalyst, plan_of(sph), pipeline_settings(sph)), sph_(sph) {}
+                                    Outputs& outputs, bool catalyst)
+    : Frames(sim, folder, outputs, catalyst, plan_of(sph), pipeline_settings(sph)), sph_(sph) {}
 
 template <int Dim>
-void ParticleFrames<Dim>::resume(const Simulation& sim) {
-  Frames::resume(sim);
-  if (sim.scene.fragments.enabled) fragments_ = tracker_.update(fragment_input(sph_), sph_.scene.fragments);
+void ParticleFrames<Dim>::resume(const Simulation& sim, const Checkpoint& checkpoint) {
+  Frames::resume(sim, checkpoint);
+  compaction_.load(checkpoint);
+  if (!sim.scene.fragments.enabled) return;
+  const auto numbers_of_before = [&] {
+    if (checkpoint.scalars.contains("fragments.last_number"))  // not in checkpoints of earlier versions
+      tracker_.restore(checkpoint.label("fragments.id"), checkpoint.label("fragments.number"),
+                       static_cast<std::int32_t>(checkpoint.scalar("fragments.last_number")));
+  };
+  numbers_of_before();
+  remember_numbers();
+  fragments_ = tracker_.update(fragment_input(sph_), sph_.scene.fragments);
+  numbers_of_before();  // the next frame compares with the last one, not with this look between them
+}
+
+template <int Dim>
+void ParticleFrames<Dim>::save(CheckpointView& view) {
+  compaction_.save(view);
+  if (!sph_.scene.fragments.enabled) return;
+  view.scalars["fragments.last_number"] = numbers_.last;
+  view.labels.push_back({"fragments.id", "1", numbers_.id});
+  view.labels.push_back({"fragments.number", "1", numbers_.number});
+}
+
+template <int Dim>
+void ParticleFrames<Dim>::remember_numbers() {
+  numbers_ = {{}, {}, tracker_.last_number()};
+  for (const auto& [id, number] : tracker_.number_of_id()) {
+    numbers_.id.push_back(id);
+    numbers_.number.push_back(number);
+  }
 }
 
 template <int Dim>
 void ParticleFrames<Dim>::look(Simulation& sim) {
-  if (sim.scene.fragments.enabled)
-    sim.timers.time("in situ: fragment search",
-                    [&] { fragments_ = tracker_.update(fragment_input(sph_), sph_.scene.fragments); });
+  if (!sim.scene.fragments.enabled) return;
+  sim.timers.time("in situ: fragment search", [&] {
+    fragments_ = tracker_.update(fragment_input(sph_), sph_.scene.fragments);
+    if (on_schedule(sim.clock.time)) remember_numbers();
+  });
 }
 
 template <int Dim>
@@ -80,8 +110,8 @@ SampledImage ParticleFrames<Dim>::make_slice() {
 
 template <int Dim>
 void ParticleFrames<Dim>::keep(bool last) {
-  compaction_.collect(sph_.particles, sph_.materials);
-  if (last) compaction_.write(folder_, sph_.materials);
+  compaction_.collect(sph_.particles, sph_.materials, !on_schedule(sph_.clock.time));
+  if (last) outputs_.write("figures", Outputs::Loss::until_next, [&] { compaction_.write(folder_, sph_.materials); });
 }
 
 template PipelineSettings pipeline_settings<2>(const Sph<2>&);

@@ -15,10 +15,13 @@ PipelineSettings pipeline_settings(const Sph<Dim>& sph);
 template <int Dim>
 class ParticleFrames final : public Frames {
  public:
-  ParticleFrames(const Simulation& sim, const Sph<Dim>& sph, const std::filesystem::path& folder, bool catalyst);
-  void resume(const Simulation& sim) override;
+  ParticleFrames(const Simulation& sim, const Sph<Dim>& sph, const std::filesystem::path& folder, Outputs& outputs,
+                 bool catalyst);
+  void resume(const Simulation& sim, const Checkpoint& checkpoint) override;
+  void save(CheckpointView& view) override;
 
  private:
+  void remember_numbers();
   void look(Simulation& sim) override;
   void draw_more(Simulation& sim) override;
   std::vector<Channel> make_channels(Simulation& sim) override;
@@ -29,6 +32,11 @@ class ParticleFrames final : public Frames {
   FragmentTracker tracker_;
   FrameChannels<Dim> channels_;
   CompactionPlot compaction_;
+  /// Of tracker_ at the last frame on schedule: what the frames after a restart compare with.
+  struct Numbers {
+    std::vector<std::int32_t> id, number;
+    std::int32_t last = 0;
+  } numbers_;
 };
 
 }  // namespace ejecta

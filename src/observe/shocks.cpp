@@ -9,22 +9,22 @@
 
 namespace ejecta {
 
-Shocks::Shocks(const Simulation& sim, std::filesystem::path folder, std::optional<double> resume_at)
+Shocks::Shocks(const Simulation& sim, std::filesystem::path folder, Outputs& outputs,
+               const std::optional<Clock>& resume_at)
     : folder_(std::move(folder)),
-      resume_at_(resume_at),
-      interval_(is_set(sim.scene.output.history_interval) ? sim.scene.output.history_interval : sim.scene.time_end / 200),
+      outputs_(outputs),
+      due_(row_interval(sim.scene), sim.scene.output.times, resume_at),
       times_(sim.scene.output.times) {
-  if (!resume_at) return;
-  while (next_ <= *resume_at) next_ += interval_;
-  times_.pass(*resume_at);
+  if (resume_at) times_.pass(resume_at->time);
 }
 
 void Shocks::observe(Simulation& sim, bool last) {
-  const bool asked = times_.pass(sim.clock.time);
-  if (asked || last) sim.timers.time("tables", [&] { write_lineouts(sim); });
-  if (sim.clock.time < next_ && !asked && !last) return;
-  while (next_ <= sim.clock.time) next_ += interval_;
-  sim.timers.time("tables", [&] { write_row(sim); });
+  if (times_.pass(sim.clock.time) || last)
+    sim.timers.time("tables",
+                    [&] { outputs_.write("lineouts", Outputs::Loss::for_good, [&] { write_lineouts(sim); }); });
+  if ((!due_.pass(sim.clock.time) && !last) || sim.clock.step == written_) return;
+  written_ = sim.clock.step;
+  sim.timers.time("tables", [&] { outputs_.write("shock.csv", Outputs::Loss::until_next, [&] { write_row(sim); }); });
 }
 
 void Shocks::write_row(const Simulation& sim) {
@@ -34,8 +34,8 @@ void Shocks::write_row(const Simulation& sim) {
     if (!rows_) {
       const std::array<CsvColumn, 4> columns{
           {{"time", "s"}, {"radius", "m"}, {"peak_density", "kg/m^3"}, {"peak_pressure", "Pa"}}};
-      if (resume_at_)
-        rows_.emplace(folder_ / "shock.csv", columns, *resume_at_);
+      if (const auto until = due_.kept_until())
+        rows_.emplace(folder_ / "shock.csv", columns, *until);
       else
         rows_.emplace(folder_ / "shock.csv", columns);
     }
@@ -60,7 +60,6 @@ void Shocks::write_lineouts(const Simulation& sim) const {
       rows.push_back({box.centre(cell)[0], s.density, s.velocity[0], s.pressure, s.specific_energy,
                       s.velocity.norm() / s.sound_speed});
     }
-    std::filesystem::create_directories(folder_ / "lineouts");
     write_csv(folder_ / fmt::format("lineouts/lineout_{:06d}.csv", sim.clock.step), columns, rows);
   });
 }

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "observe/outputs.hpp"
 #include "observe/schedule.hpp"
 #include "output/csv.hpp"
 #include "simulation/simulation.hpp"
@@ -13,8 +14,8 @@ namespace ejecta {
 /// end, of grids, lineouts/lineout_<step>.csv: the row of cells through the charge, or the middle of the box, along x.
 class Shocks final : public Observer {
  public:
-  Shocks(const Simulation& sim, std::filesystem::path folder, std::optional<double> resume_at);
-  double next_time() const override { return times_.next(); }
+  Shocks(const Simulation& sim, std::filesystem::path folder, Outputs& outputs, const std::optional<Clock>& resume_at);
+  double next_time() const override { return due_.next_time(); }
   void observe(Simulation& sim, bool last) override;
 
  private:
@@ -22,10 +23,11 @@ class Shocks final : public Observer {
   void write_lineouts(const Simulation& sim) const;
 
   std::filesystem::path folder_;
-  std::optional<double> resume_at_;
+  Outputs& outputs_;
   std::optional<CsvWriter> rows_;  ///< of shock.csv
-  double interval_, next_ = 0;     ///< s
-  OutputTimes times_;
+  RowTimes due_;
+  std::int64_t written_ = -1;  ///< step of the last row
+  OutputTimes times_;          ///< of line-outs
 };
 
 }  // namespace ejecta

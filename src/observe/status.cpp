@@ -4,9 +4,11 @@
 
 namespace ejecta {
 
-Status::Status(const Simulation& sim, std::filesystem::path folder, const Frames& frames, FragmentContext context)
+Status::Status(const Simulation& sim, std::filesystem::path folder, const Frames& frames, FragmentContext context,
+               Outputs& outputs)
     : folder_(std::move(folder)),
       frames_(frames),
+      outputs_(outputs),
       monitor_(folder_),
       context_(std::move(context)),
       first_time_(sim.clock.time),
@@ -14,7 +16,6 @@ Status::Status(const Simulation& sim, std::filesystem::path folder, const Frames
       first_total_(sim.wall_seconds + sim.insitu_seconds),
       first_work_(element_steps(sim)) {
   status_.scene = heading(sim.scene);
-  status_.time_end = sim.scene.time_end;
   if (sim.packages.size() == 1) status_.element = sim.packages[0]->element();
   if (sim.scene.fragments.enabled) status_.smallest_fragment = context_.share(context_.smallest);
   if (!context_.bodies.empty()) status_.fragment_target = context_.bodies[context_.target];
@@ -25,6 +26,7 @@ void Status::gather(const Simulation& sim) {
   for (const auto& package : sim.packages) status_.particles += static_cast<std::int64_t>(package->elements());
   status_.step = sim.clock.step;
   status_.time = sim.clock.time;
+  status_.time_end = sim.scene.time_end;
   status_.dt = sim.clock.dt;
   status_.limited_by = std::string(sim.vote.reason);
   status_.wall_s = sim.wall_seconds + sim.insitu_seconds;
@@ -48,21 +50,27 @@ void Status::gather(const Simulation& sim) {
       if (const double m = f.mass_of(context_.target); m > 0) status_.fragment_masses.push_back(context_.share(m));
   status_.views = read_views(folder_);
   status_.warnings = frames_.warnings();
+  status_.warnings.insert(status_.warnings.end(), outputs_.warnings().begin(), outputs_.warnings().end());
 }
 
 void Status::observe(Simulation& sim, bool) {
   if (!monitor_.due()) return;
   sim.timers.time("monitor", [&] {
+    status_.state = RunState::running;
     gather(sim);
-    monitor_.update(status_);
+    outputs_.write("monitor", Outputs::Loss::until_next, [&] { monitor_.update(status_); });
   });
 }
 
-void Status::conclude(const Simulation& sim, RunState state, int exit_code) {
-  gather(sim);
+void Status::show(const Simulation& sim, RunState state) {
   status_.state = state;
+  gather(sim);
+  outputs_.write("monitor", Outputs::Loss::until_next, [&] { monitor_.update(status_, true); });
+}
+
+void Status::conclude(const Simulation& sim, RunState state, int exit_code) {
   status_.exit = exit_code;
-  monitor_.update(status_, true);
+  show(sim, state);
 }
 
 void Status::give_up(int exit_code) {

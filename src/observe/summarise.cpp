@@ -16,9 +16,10 @@ namespace {
 /// Bytes of all files in a folder; 0 if there is none.
 std::int64_t folder_bytes(const std::filesystem::path& folder) {
   std::int64_t bytes = 0;
-  if (std::filesystem::exists(folder))
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
-      if (entry.is_regular_file()) bytes += static_cast<std::int64_t>(entry.file_size());
+  std::error_code gone;
+  for (std::filesystem::recursive_directory_iterator entry(folder, gone), end; !gone && entry != end;
+       entry.increment(gone))
+    if (entry->is_regular_file(gone)) bytes += static_cast<std::int64_t>(entry->file_size(gone));
   return bytes;
 }
 

@@ -50,24 +50,24 @@ Quantities quantities(const Simulation& sim, const Frames& frames, const Fragmen
 }
 
 Tables::Tables(const Scene& scene, const std::filesystem::path& folder, Frames& frames, FragmentContext context,
-               std::optional<double> resume_at)
-    : interval_(is_set(scene.output.history_interval) ? scene.output.history_interval : scene.time_end / 200),
-      times_(scene.output.times),
+               Outputs& outputs, const std::optional<Clock>& resume_at)
+    : due_(row_interval(scene), scene.output.times, resume_at),
       frames_(frames),
+      outputs_(outputs),
       context_(std::move(context)),
-      history_(folder / "history.csv", resume_at) {
-  while (resume_at && next_ <= *resume_at) next_ += interval_;
-  if (resume_at) times_.pass(*resume_at);
-  if (scene.fragments.enabled) largest_.emplace(folder / "largest_fragment.csv", context_, resume_at);
+      history_(folder / "history.csv", due_.kept_until()) {
+  if (scene.fragments.enabled) largest_.emplace(folder / "largest_fragment.csv", context_, due_.kept_until());
 }
 
 void Tables::observe(Simulation& sim, bool last) {
-  const bool asked = times_.pass(sim.clock.time);
-  if (sim.clock.time < next_ && !asked && !last) return;
-  while (next_ <= sim.clock.time) next_ += interval_;
+  if ((!due_.pass(sim.clock.time) && !last) || sim.clock.step == written_) return;
+  written_ = sim.clock.step;
   sim.timers.time("tables", [&] {
-    history_.write(quantities(sim, frames_, context_));
-    if (largest_ && frames_.fragments()) largest_->write(sim.clock.time, *frames_.fragments());
+    outputs_.write("history.csv", Outputs::Loss::until_next,
+                   [&] { history_.write(quantities(sim, frames_, context_)); });
+    if (largest_ && frames_.fragments())
+      outputs_.write("largest_fragment.csv", Outputs::Loss::until_next,
+                     [&] { largest_->write(sim.clock.time, *frames_.fragments()); });
     if (warned_ || !kept(sim).angular_momentum) return;
     const double drift = conservation_errors(initial(sim), conserved(sim), external(sim)).angular_momentum;
     if (!(drift > worrying_angular_drift)) return;

@@ -20,18 +20,18 @@ Quantities quantities(const Simulation& sim, const Frames& frames, const Fragmen
 class Tables final : public Observer {
  public:
   Tables(const Scene& scene, const std::filesystem::path& folder, Frames& frames, FragmentContext context,
-         std::optional<double> resume_at);
-  double next_time() const override { return times_.next(); }
+         Outputs& outputs, const std::optional<Clock>& resume_at);
+  double next_time() const override { return due_.next_time(); }
   void observe(Simulation& sim, bool last) override;
 
  private:
-  double interval_;
-  double next_ = 0;
-  OutputTimes times_;
+  RowTimes due_;
   Frames& frames_;
+  Outputs& outputs_;
   FragmentContext context_;
   History history_;
   std::optional<LargestFragmentHistory> largest_;
+  std::int64_t written_ = -1;  ///< step of the last row
   bool warned_ = false;  ///< that angular momentum drifts
 };
 

@@ -3,6 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/crc.hpp>
+#include <cerrno>
+#include <cstdlib>
+#include <fstream>
 
 #include "base/errors.hpp"
 #include "output/atomic_file.hpp"
@@ -39,6 +43,48 @@ std::vector<fs::path> checkpoints_in(const fs::path& folder) {
   return files;
 }
 
+/// "checkpoint_000000000042.h5" -> 42
+std::int64_t step_of(const fs::path& file) {
+  return std::atoll(file.filename().string().substr(std::string_view("checkpoint_").size()).c_str());
+}
+
+constexpr std::string_view seal_words = "Ejecta checkpoint; CRC-32 of all that follows the first 512 bytes: ";
+
+/// The checksum of everything behind the user block, as it stands in the file now.
+std::string checksum(std::ifstream& in) {
+  boost::crc_32_type crc;
+  std::vector<char> block(1 << 20);
+  in.clear();
+  in.seekg(hdf5_user_block);
+  while (in.read(block.data(), static_cast<std::streamsize>(block.size())) || in.gcount() > 0)
+    crc.process_bytes(block.data(), static_cast<std::size_t>(in.gcount()));
+  return fmt::format("{:08x}", crc.checksum());
+}
+
+/// Writes the checksum into the user block.
+void seal(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string header = std::string(seal_words) + checksum(in) + '\n';
+  header.resize(hdf5_user_block, ' ');
+  errno = 0;
+  std::ofstream out(file, std::ios::binary | std::ios::in | std::ios::out);
+  out << header;
+  out.close();
+  if (!out) throw OutputError(file);
+}
+
+/// Files of earlier versions have no seal, and pass.
+void check_seal(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string header(hdf5_user_block, '\0');
+  in.read(header.data(), static_cast<std::streamsize>(header.size()));
+  if (!header.starts_with(seal_words)) return;
+  if (header.compare(seal_words.size(), 8, checksum(in)) != 0)
+    throw InputError(
+        file.string() +
+        ": expected the contents that were written, got others: its checksum differs (truncated or damaged)");
+}
+
 }  // namespace
 
 const std::vector<double>& Checkpoint::column(const std::string& name) const { return found(columns, name, *this); }
@@ -53,6 +99,7 @@ std::size_t Checkpoint::size(const std::string& prefix) const {
 }
 
 void write_checkpoint(const fs::path& file, const CheckpointView& view) {
+  ensure_folder(file.parent_path());
   const PartGuard guard(file);
   {
     Hdf5File out(part_name(file), Hdf5File::Mode::create);
@@ -66,17 +113,18 @@ void write_checkpoint(const fs::path& file, const CheckpointView& view) {
     for (const auto& label : view.labels) out.write("/labels/" + label.name, label.unit, label.values);
     out.close();
   }
+  seal(part_name(file));
+  sync_to_disk(part_name(file));
   move_into_place(file);
+  sync_to_disk(file.parent_path());
 }
 
-fs::path write_rotating_checkpoint(const fs::path& folder, const CheckpointView& view) {
-  std::error_code failure;
-  fs::create_directories(folder, failure);
+fs::path write_rotating_checkpoint(const fs::path& folder, const CheckpointView& view, int kept) {
   const fs::path file = folder / fmt::format("checkpoint_{:012d}.h5", view.step);
   write_checkpoint(file, view);
-  constexpr std::size_t kept = 2;
   const std::vector<fs::path> files = checkpoints_in(folder);
-  for (std::size_t k = 0; k + kept < files.size(); ++k) fs::remove(files[k], failure);
+  std::error_code stays;
+  for (std::size_t k = 0; k + static_cast<std::size_t>(kept) < files.size(); ++k) fs::remove(files[k], stays);
   return file;
 }
 
@@ -85,7 +133,31 @@ std::optional<fs::path> latest_checkpoint(const fs::path& folder) {
   return files.empty() ? std::nullopt : std::optional(files.back());
 }
 
+Checkpoint read_latest_checkpoint(const fs::path& folder, std::vector<std::string>& problems) {
+  std::vector<fs::path> files = checkpoints_in(folder);
+  for (; !files.empty(); files.pop_back()) try {
+      return read_checkpoint(files.back());
+    } catch (const InputError& error) {
+      problems.emplace_back(error.what());
+    }
+  if (problems.empty()) problems.push_back(folder.string() + ": expected a checkpoint, found none");
+  throw InputError(problems);
+}
+
+std::vector<std::string> set_later_checkpoints_aside(const fs::path& folder, std::int64_t step) {
+  std::vector<std::string> names;
+  for (const fs::path& file : checkpoints_in(folder)) {
+    if (step_of(file) <= step) continue;
+    std::error_code failure;
+    fs::rename(file, file.string() + ".aside", failure);
+    if (failure) throw OutputError(file, failure.message());
+    names.push_back(file.filename().string());
+  }
+  return names;
+}
+
 Checkpoint read_checkpoint(const fs::path& file) {
+  check_seal(file);
   const Hdf5File in(file, Hdf5File::Mode::read);
   if (const std::int64_t version = in.integer_attribute("format"); version != format_version)
     throw InputError(fmt::format("{}: expected checkpoint format {}, got {}", file.string(), format_version, version));

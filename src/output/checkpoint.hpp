@@ -46,17 +46,26 @@ struct Checkpoint {
   std::size_t size(const std::string& prefix) const;
 };
 
-/// Writes one file atomically. Throws OutputError if it cannot be written.
+/// Writes one file, with a checksum at its front, in a folder that is made if need be. It has its name only once it is
+/// on the disk as a whole. Throws OutputError if it cannot be written.
 void write_checkpoint(const std::filesystem::path& file, const CheckpointView& view);
 
-/// Writes folder/checkpoint_<step>.h5 (the folder is made) and removes all but the newest two. Returns its path. Throws
-/// OutputError.
-std::filesystem::path write_rotating_checkpoint(const std::filesystem::path& folder, const CheckpointView& view);
+/// Writes folder/checkpoint_<step>.h5 and removes all but the newest `kept`. Returns its path. Throws OutputError.
+std::filesystem::path write_rotating_checkpoint(const std::filesystem::path& folder, const CheckpointView& view,
+                                                int kept = 2);
 
 /// The checkpoint of the highest step in the folder, if there is one.
 std::optional<std::filesystem::path> latest_checkpoint(const std::filesystem::path& folder);
 
-/// Throws InputError if the file is missing, truncated, of another format or its columns differ in length.
+/// Throws InputError if the file is missing, truncated, damaged, of another format or its columns differ in length.
 Checkpoint read_checkpoint(const std::filesystem::path& file);
+
+/// The newest checkpoint of a folder that can be read. What is wrong with newer ones is added to `problems`. Throws
+/// InputError if there is none.
+Checkpoint read_latest_checkpoint(const std::filesystem::path& folder, std::vector<std::string>& problems);
+
+/// Renames the checkpoints of later steps to <name>.aside, so that the run that goes on from `step` is not mixed up
+/// with them. Returns their former names.
+std::vector<std::string> set_later_checkpoints_aside(const std::filesystem::path& folder, std::int64_t step);
 
 }  // namespace ejecta

@@ -44,7 +44,7 @@ void write_fragments(const std::filesystem::path& file, const FragmentTable& tab
   for (const char* axis : {"a", "b", "c"}) columns.push_back({std::string("semi-axis ") + axis, "m"});
   columns.insert(columns.end(), {{"mean damage", "1"}, {"mean distension", "1"}});
 
-  CsvWriter writer(file, columns);
+  std::vector<std::vector<CsvCell>> rows;
   for (const Fragment& f : table.fragments) {
     std::vector<CsvCell> row{std::int64_t{f.number}, static_cast<std::int64_t>(f.carried.particles), f.carried.mass,
                              context.share(f.mass_of(context.target))};
@@ -52,7 +52,7 @@ void write_fragments(const std::filesystem::path& file, const FragmentTable& tab
     add_labels(row, f.mass_by_material, context.materials.size());
     for (const Vec<3>* v : {&f.centre, &f.velocity, &f.spin, &f.semi_axes}) add_vector(row, *v);
     row.insert(row.end(), {f.mean_damage, f.mean_distension});
-    writer.row(row);
+    rows.push_back(std::move(row));
   }
   std::vector<CsvCell> dust(columns.size(), none);
   dust[0] = std::int64_t{0};
@@ -63,7 +63,8 @@ void write_fragments(const std::filesystem::path& file, const FragmentTable& tab
   const std::size_t velocity = 4 + context.bodies.size() + context.materials.size() + 3;
   if (table.dust.mass > 0)
     for (int a = 0; a < 3; ++a) dust[velocity + static_cast<std::size_t>(a)] = table.dust.momentum[a] / table.dust.mass;
-  writer.row(dust);
+  rows.push_back(std::move(dust));
+  write_csv(file, columns, rows);
 }
 
 void write_fragment_distribution(const std::filesystem::path& file, const FragmentTable& table,

@@ -36,7 +36,7 @@ std::vector<BodyFragments> fragments_by_body(const FragmentTable& table, const F
 
 /// fragments.csv: one row a fragment, those with most of the target's matter first, then a row with number 0 for the
 /// dust, which is everything else (mass and velocity only). "mass fraction" counts matter of the target only.
-/// Throws InputError if it cannot be written; so do the functions below.
+/// Throws OutputError if it cannot be written; so do the functions below.
 void write_fragments(const std::filesystem::path& file, const FragmentTable& table, const FragmentContext& context);
 
 /// fragment_distribution.csv: mass m of the target's matter in a fragment, m / mass of the target, number of fragments

@@ -35,8 +35,11 @@ class Quiet {
 
 std::int64_t open_file(const std::filesystem::path& file, Hdf5File::Mode mode) {
   const Quiet quiet;
-  return mode == Hdf5File::Mode::create ? H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT)
-                                        : H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (mode == Hdf5File::Mode::read) return H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  errno = 0;
+  const Hdf5Handle layout(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  H5Pset_userblock(layout.id(), hdf5_user_block);
+  return H5Fcreate(file.c_str(), H5F_ACC_TRUNC, layout.id(), H5P_DEFAULT);
 }
 
 /// A zero-terminated UTF-8 text of fixed length.

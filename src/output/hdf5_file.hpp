@@ -26,6 +26,9 @@ class Hdf5Handle {
   Close close_;
 };
 
+/// Bytes at the front of a file that HDF5 leaves to who writes it.
+inline constexpr std::size_t hdf5_user_block = 512;
+
 /// One open file. Data sets are one-dimensional and carry a text attribute `unit`; attributes sit on the root group.
 class Hdf5File {
  public:

@@ -15,7 +15,7 @@ namespace ejecta {
 namespace {
 
 constexpr std::size_t most_points = 300;
-constexpr std::array state_names{"running", "finished", "stopped", "failed"};
+constexpr std::array state_names{"running", "finished", "stopped", "failed", "paused"};
 
 /// Enough digits for a plot, and few bytes.
 std::string short_json(double value) { return std::isfinite(value) ? fmt::format("{:.7g}", value) : "null"; }
@@ -50,6 +50,8 @@ std::string distribution_json(const std::vector<double>& masses) {
 }
 
 }  // namespace
+
+std::string_view name_of(RunState state) { return state_names[static_cast<std::size_t>(state)]; }
 
 void MonitorStatus::record(std::string_view name, std::string_view unit, double at, double value) {
   auto series = std::find_if(history.begin(), history.end(), [&](const MonitorSeries& s) { return s.name == name; });
@@ -99,7 +101,7 @@ std::string monitor_json(const MonitorStatus& s, std::int64_t updated) {
     text += fmt::format("{}\"{}\": {}", text.empty() ? "{\n" : ",\n", key, value);
   };
   add("scene", to_json(s.scene));
-  add("state", to_json(state_names[static_cast<std::size_t>(s.state)]));
+  add("state", to_json(name_of(s.state)));
   add("exit", to_json(s.exit));
   add("updated", to_json(updated));
   add("step", to_json(s.step));
@@ -115,6 +117,7 @@ std::string monitor_json(const MonitorStatus& s, std::int64_t updated) {
   add("energy_error_rel", to_json(s.energy_error));
   add("angular_momentum_error_rel", to_json(s.angular_momentum_error));
   add("warnings", json_list(s.warnings, [](const std::string& w) { return to_json(w); }));
+  add("control", json_list(s.control));
   add("views", json_list(s.views, view_json));
   add("history", json_list(s.history, series_json));
   add("fragment_target", to_json(s.fragment_target));
@@ -125,16 +128,13 @@ std::string monitor_json(const MonitorStatus& s, std::int64_t updated) {
 }
 
 Monitor::Monitor(const std::filesystem::path& run_folder, std::chrono::milliseconds interval)
-    : folder_(run_folder / "monitor"), interval_(interval) {
-  std::error_code reported_by_the_write;
-  std::filesystem::create_directories(folder_, reported_by_the_write);
-  write_atomically(folder_ / "index.html", monitor_page());
-}
+    : folder_(run_folder / "monitor"), interval_(interval) {}
 
 bool Monitor::due() const { return !written_ || std::chrono::steady_clock::now() - *written_ >= interval_; }
 
 void Monitor::update(const MonitorStatus& status, bool force) {
   if (!force && !due()) return;
+  if (!std::filesystem::exists(folder_ / "index.html")) write_atomically(folder_ / "index.html", monitor_page());
   write(status, write_atomically);
   written_ = std::chrono::steady_clock::now();
 }

@@ -10,7 +10,8 @@
 
 namespace ejecta {
 
-enum class RunState { running, finished, stopped, failed };
+enum class RunState { running, finished, stopped, failed, paused };
+std::string_view name_of(RunState state);
 
 /// Something followed in time. Every series has times of its own, since not all are evaluated equally often.
 struct MonitorSeries {
@@ -51,6 +52,7 @@ struct MonitorStatus {
   std::vector<double> fragment_masses;      ///< its matter in a fragment / its mass, heaviest first, without the dust
   std::optional<double> smallest_fragment;  ///< the same of the lightest fragment that is counted
   std::vector<std::string> warnings;
+  std::vector<std::string> control;  ///< what was asked of the run while it went on, and what became of it
 
   /// Adds a point [s, SI] to the series of that name, which is made if there is none.
   void record(std::string_view name, std::string_view unit, double at, double value);
@@ -69,17 +71,17 @@ std::string monitor_json(const MonitorStatus& status, std::int64_t updated);
 /// Text of the page.
 std::string_view monitor_page();
 
-/// Keeps the files of `monitor/`: index.html, written once; status.json; status.js, the same for the page, which may
+/// Keeps the files of `monitor/`: index.html; status.json; status.js, the same for the page, which may
 /// load scripts but not data when it is opened from disk.
 class Monitor {
  public:
-  /// Makes the folder and the page. Throws OutputError if they cannot be written; so does update().
   explicit Monitor(const std::filesystem::path& run_folder,
                    std::chrono::milliseconds interval = std::chrono::seconds(1));
 
   /// True if update() would write: nothing need be gathered before.
   bool due() const;
-  /// Replaces the status atomically, at most once an interval unless forced (the last word of a run).
+  /// Replaces the status atomically, at most once an interval unless forced (the last word of a run). Makes folder and
+  /// page where they are not there. Throws OutputError if they cannot be written.
   void update(const MonitorStatus& status, bool force = false);
   /// The last word of a run whose files cannot be written: tries as well as it can, by writing over the status that is
   /// there, and never throws.

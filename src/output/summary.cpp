@@ -71,6 +71,9 @@ std::string summary_json(const Summary& s) {
   add("fragments", s.fragments);
   add_text("bodies", bodies_json(s.bodies));
   add_text("quantities", quantities_json(s.quantities));
+  add("state", s.state);
+  add("reason", s.reason);
+  add_text("not_written", json_list(s.not_written));
   add("exit", s.exit);
   return text + "\n}\n";
 }

@@ -45,7 +45,10 @@ struct Summary {
   std::optional<std::int64_t> fragments;                 ///< of all bodies
   std::vector<BodySummary> bodies;                       ///< an object by name
   Quantities quantities;                                 ///< the last row of history.csv, an object by name and unit
-  int exit = 0;                                          ///< exit code of the run: 0 done, 3 failed, 4 stopped by a signal
+  std::string state = "finished";                        ///< finished, stopped or failed
+  std::optional<std::string> reason;                     ///< why it is not finished
+  std::vector<std::string> not_written;                  ///< a sentence for each kind of file that is not all there
+  int exit = 0;                                          ///< exit code of the run: 0 done, 3 failed, 4 stopped
 };
 
 /// One JSON object, one key a line, in the order of the members.

@@ -167,8 +167,11 @@ void describe(Describer& d, OutputSettings& o) {
   d.number("history_interval", o.history_interval, "s", positive,
            "simulated time between rows of history.csv; else end/200");
   d.number("checkpoint_interval", o.checkpoint_interval, "s", non_negative,
-           "wall time between checkpoints, which begin at a tenth of it; 0: only at the end")
+           "wall time between checkpoints, the first of them after a minute; 0: none by wall time")
       .zero_is_unset = true;
+  d.number("checkpoint_every", o.checkpoint_every, "s", positive,
+           "simulated time between further checkpoints, each at the end of the step that passes it");
+  d.integer("checkpoints_kept", o.checkpoints_kept, at_least(1), "so many of the newest stay");
   d.integer("snapshots", o.snapshots, non_negative, "full dumps, equally spaced in simulated time");
   d.numbers("times", o.times, "s", positive,
             "steps end there, with a frame, rows of the tables, a line-out of a grid and a full dump");

@@ -134,6 +134,8 @@ struct FragmentSettings {
 struct OutputSettings {
   double history_interval = unset;   ///< s of simulated time; default: end/200
   double checkpoint_interval = 600;  ///< s of wall time; not set: only at the end
+  double checkpoint_every = unset;   ///< s of simulated time; not set: by wall time alone
+  int checkpoints_kept = 2;          ///< the newest ones
   int snapshots = 0;                 ///< full HDF5 dumps, equally spaced in time; 0: none
   std::vector<double> times;         ///< s; steps end there, with a frame, rows of the tables and a full dump
   bool peaks = false;                ///< particles remember their extremes and where they come from

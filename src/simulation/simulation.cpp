@@ -132,13 +132,13 @@ Vote step(Package& package, const Scene& scene, double dt_limit) {
   return step_together(alone, clock, package.timers, scene, dt_limit).vote;
 }
 
-bool run(Simulation& sim, const std::vector<Observer*>& observers, bool (*stop)()) {
-  const double end = sim.scene.time_end, round_off = 1e-12 * end;
+bool run(Simulation& sim, const std::vector<Observer*>& observers, const std::function<bool()>& stop) {
   auto observe = [&](bool last) {
     for (Observer* observer : observers) observer->observe(sim, last);
   };
   auto finished = [&] {
-    return sim.clock.time >= end - round_off || (sim.scene.max_steps && sim.clock.step >= *sim.scene.max_steps);
+    return sim.clock.time >= sim.scene.time_end * (1 - 1e-12) ||
+           (sim.scene.max_steps && sim.clock.step >= *sim.scene.max_steps);
   };
   while (!finished()) {
     if (stop()) {
@@ -146,6 +146,7 @@ bool run(Simulation& sim, const std::vector<Observer*>& observers, bool (*stop)(
       return false;
     }
     observe(false);
+    const double end = sim.scene.time_end, round_off = 1e-12 * end;
     double limit = end - sim.clock.time;
     for (const Observer* observer : observers)
       if (const double wait = observer->next_time() - sim.clock.time; wait > round_off) limit = std::min(limit, wait);

@@ -1,5 +1,6 @@
 #pragma once
 /// The time loop: it knows packages and observers, and nothing of what they solve or show.
+#include <functional>
 #include <memory>
 #include <typeinfo>
 #include <vector>
@@ -70,8 +71,8 @@ void step(Simulation& sim, double dt_limit);
 /// The same for a package on its own. Returns the vote.
 Vote step(Package& package, const Scene& scene, double dt_limit);
 
-/// Steps until the end time, the step limit, or until stop() says so; calls the observers. Returns true if the end was
-/// reached. Throws SimulationError; the state is then that of the failed step.
-bool run(Simulation& sim, const std::vector<Observer*>& observers, bool (*stop)());
+/// Steps until the end time, which stop() may change, the step limit, or until stop() says so; calls the observers.
+/// Returns true if the end was reached. Throws SimulationError; the state is then that of the failed step.
+bool run(Simulation& sim, const std::vector<Observer*>& observers, const std::function<bool()>& stop);
 
 }  // namespace ejecta

@@ -25,14 +25,33 @@ class Commands(RunTest):
     def test_help_and_info(self):
         overview = ejecta("--help")
         self.assertEqual(overview.returncode, 0)
-        for command in ("run", "check", "reference", "describe", "movie", "replay", "info"):
+        for command in ("run", "check", "reference", "describe", "control", "movie", "replay", "info"):
             self.assertIn(command, overview.stdout)
             result = ejecta(command, "--help")
             self.assertEqual(result.returncode, 0)
             self.assertIn("Usage:", result.stdout)
+        version = ejecta("--version")
+        self.assertEqual(version.returncode, 0)
+        self.assertRegex(version.stdout, r"^ejecta \d+\.\d+\.\d+\n$")
         info = ejecta("info")
         self.assertEqual(info.returncode, 0)
         self.assertRegex(info.stdout, r"ejecta \d+\.\d+")
+
+    def test_a_mistyped_command_is_answered_with_the_nearest(self):
+        for typed, meant in (("rnu", "run"), ("chekc", "check"), ("contol", "control")):
+            result = ejecta(typed, "scene.toml")
+            self.assertEqual(result.returncode, 2)
+            self.assertEqual(result.stderr, f'ejecta: expected a command, got "{typed}", did you mean {meant}?\n')
+        self.assertIn("--help lists them", ejecta("xyzzy").stderr)
+
+    def test_the_script_adds_its_commands(self):
+        script = (SOURCE / "ejecta").read_text()
+        names = {"EJECTA_LAUNCHER": re.search(r"EJECTA_LAUNCHER='([^']*)'", script)[1]}
+        overview = ejecta("--help", environment=names).stdout
+        for command in ("test", "report", "fuzz"):
+            self.assertRegex(script, rf"(?m)^  {command}\) ")
+            self.assertRegex(overview, rf"(?m)^  {command} ")
+        self.assertIn("did you mean report?", ejecta("repotr", environment=names).stderr)
 
     def test_check_of_a_gas_lists_what_a_gas_needs(self):
         result = ejecta("check", SOD)

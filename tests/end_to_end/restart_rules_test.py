@@ -5,7 +5,7 @@ import signal
 import subprocess
 import time
 import unittest
-from ejecta_run import IMPACT_2D, PROGRAM, RunTest, ejecta, resolved, settings, summary
+from ejecta_run import IMPACT_2D, PROGRAM, RunTest, Table, ejecta, resolved, settings, summary
 
 COARSE = {"resolution.spacing": "4mm", "insitu.enabled": "false", "fragments.enabled": "false", "run.threads": 1}
 LONG = {**COARSE, "resolution.spacing": "2mm", "time.end": "10ms"}  # minutes, if nobody ends it
@@ -51,6 +51,32 @@ class RestartRules(RunTest):
             result = ejecta("run", IMPACT_2D, "--out", out, "--restart", *settings({**COARSE, **values}))
             self.assertEqual(result.returncode, 2)
             self.assertIn("resolution.spacing: expected", result.stderr)
+
+    def test_accepted_changes_are_told(self):
+        self.run_scene(IMPACT_2D, "run", {**COARSE, "time.max_steps": 5})
+        out = self.run_scene(IMPACT_2D, "run", {**COARSE, "time.max_steps": 8, "numerics.courant": 0.3}, "--restart",
+                             "--accept-changes")
+        self.assertIn("changed since the checkpoint: numerics.courant: 0.4 -> 0.3", (out / "run.log").read_text())
+        self.assertEqual((summary(out)["steps"], resolved(out)["numerics"]["courant"]), (8, 0.3))
+
+    def test_a_failed_state_goes_on_once_the_cause_is_gone(self):
+        out = self.run_scene(IMPACT_2D, "run", {**COARSE, "numerics.max_energy_drift": 1e-30}, code=3)
+        failed, = (out / "checkpoints").glob("failed_*.h5")
+        self.assertEqual(summary(out)["state"], "failed")
+        self.assertIn("energy has drifted", summary(out)["reason"])
+        steps = summary(out)["steps"]
+        self.run_scene(IMPACT_2D, "run", {**COARSE, "time.max_steps": steps + 9}, "--restart", "--accept-changes",
+                       "--from", failed)
+        self.assertEqual((summary(out)["steps"], summary(out)["state"]), (steps + 9, "finished"))
+        rows = [int(step) for step in Table(out / "history.csv")["step"]]
+        self.assertEqual(rows, sorted(set(rows)))
+
+    def test_checkpoints_by_simulated_time(self):
+        out = self.run_scene(IMPACT_2D, "run", {**COARSE, "time.end": "10us", "output.checkpoint_every": "2us",
+                                                "output.checkpoints_kept": 3})
+        self.assertEqual(len(list((out / "checkpoints").iterdir())), 3)
+        whole = self.run_scene(IMPACT_2D, "whole", {**COARSE, "time.end": "10us"})
+        self.assertEqual((out / "history.csv").read_bytes(), (whole / "history.csv").read_bytes())
 
     def test_what_may_change(self):
         self.run_scene(IMPACT_2D, "run", {**COARSE, "time.max_steps": 5})
@@ -101,7 +127,7 @@ class RestartRules(RunTest):
                     run.send_signal(number)  # as a shell does after the terminal has
                 _, log = run.communicate(timeout=60)
                 self.assertEqual(run.returncode, 4, log)
-                self.assertEqual(summary(out)["exit"], 4)
+                self.assertEqual((summary(out)["state"], summary(out)["exit"]), ("stopped", 4))
                 self.assertEqual((status(out)["state"], status(out)["exit"]), ("stopped", 4))
                 self.assertTrue(list((out / "checkpoints").glob("checkpoint_*.h5")))
                 self.run_scene(IMPACT_2D, number.name, {**LONG, "time.max_steps": summary(out)["steps"] + 2},
@@ -118,11 +144,11 @@ class RestartRules(RunTest):
         self.assertEqual(run.returncode, 4)
 
     def test_a_crash_early_in_a_run_leaves_a_checkpoint(self):
-        out, run = self.start("run", {**LONG, "output.checkpoint_interval": "60s"})
+        out, run = self.start("run", {**LONG, "output.checkpoint_interval": "3s"})
         self.wait_for(lambda: list((out / "checkpoints").glob("checkpoint_*.h5")), seconds=30)
         run.kill()
         run.communicate(timeout=60)
-        self.run_scene(IMPACT_2D, "run", {**LONG, "output.checkpoint_interval": "60s", "time.max_steps": 1}, "--restart")
+        self.run_scene(IMPACT_2D, "run", {**LONG, "output.checkpoint_interval": "3s", "time.max_steps": 1}, "--restart")
 
 
 if __name__ == "__main__":

@@ -54,6 +54,11 @@ class Restart(RunTest):
                 after = sorted((out / "images").glob("slice_*.png"))
                 self.assertGreater(len(after), len(frames))
                 self.assertEqual(movie_frames(out / "movie_slice.mp4"), len(after))
+                self.assertEqual((out / "images/data.csv").read_text(), (whole / "images/data.csv").read_text())
+                for image in (whole / "images").glob("*.png"):
+                    self.assertEqual((out / "images" / image.name).read_bytes(), image.read_bytes(), image.name)
+                self.assertEqual((out / "figures/compaction.csv").read_text(),
+                                 (whole / "figures/compaction.csv").read_text())
                 self.assertEqual(sorted(Table(out / "images/data.csv")["FILE"]),
                                  sorted(file.name for file in (out / "images").glob("*.png")))
 
@@ -67,6 +72,8 @@ class Restart(RunTest):
         with h5py.File(checkpoint, "r+") as file:
             for now, then in former.items():
                 file["columns"].move(now, then)
+        with open(checkpoint, "r+b") as file:
+            file.write(b" " * 512)  # they had no checksum
         result = ejecta("run", IMPACT_2D, "--out", out, "--threads", 1, "--restart", *settings(values))
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(Table(out / "history.csv").rows[-1], Table(whole / "history.csv").rows[-1])
@@ -76,10 +83,7 @@ class Restart(RunTest):
         ours, theirs = Table(out / "history.csv"), Table(whole / "history.csv")
         self.assertEqual(ours.rows[-1], theirs.rows[-1])
         state = theirs.names.index("largest fragment mass fraction")
-        by_step = {row[1]: row[:state] for row in ours.rows}
-        for row in theirs.rows:
-            self.assertEqual(by_step[row[1]], row[:state])
-        self.assertLessEqual(len(ours.rows), len(theirs.rows) + 1)
+        self.assertEqual([row[:state] for row in ours.rows], [row[:state] for row in theirs.rows])
         self.assertEqual(summary(out)["largest_fragment_mass_fraction"], summary(whole)["largest_fragment_mass_fraction"])
 
 

@@ -10,7 +10,9 @@
 namespace ejecta {
 namespace {
 
-void touch(const std::string& path, const std::string& text = "png") { std::ofstream(path) << text; }
+void touch(const std::string& path, const std::string& text = "png IEND\xae\x42\x60\x82") {
+  std::ofstream(path) << text;
+}
 
 std::string contents(const std::string& path) {
   std::ostringstream text;

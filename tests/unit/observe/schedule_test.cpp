@@ -49,6 +49,45 @@ TEST(FrameSchedule, GoesOnAfterARestartWithTheNextFrame) {
   EXPECT_EQ(schedule.next(), 6);
 }
 
+TEST(FrameSchedule, DrawsWhatIsAskedForBesides) {
+  FrameSchedule schedule(10, 3);
+  EXPECT_TRUE(schedule.take(0, 0, false));
+  schedule.ask();
+  EXPECT_TRUE(schedule.take(1, 1, false));
+  EXPECT_FALSE(schedule.take(2, 2, false));
+  schedule.change(2, 1.5);
+  EXPECT_EQ(schedule.next(), 3.5);
+  EXPECT_FALSE(schedule.take(3, 3, false));
+  EXPECT_TRUE(schedule.take(4, 3.5, false));
+  EXPECT_EQ(schedule.next(), 5);
+}
+
+TEST(FrameSchedule, KnowsTheTimesOfItsFrames) {
+  const FrameSchedule schedule(1, 11, {0.25});
+  for (const double time : {0.0, 0.1, 0.3, 0.7 * (1 + 1e-14), 1.0, 0.25}) EXPECT_TRUE(schedule.falls_on(time)) << time;
+  for (const double time : {0.05, 0.1001, 0.26}) EXPECT_FALSE(schedule.falls_on(time)) << time;
+}
+
+TEST(RowTimes, ARowThatOnlyAStopHasAddedIsDropped) {
+  RowTimes whole(1, {2.5}, {});
+  std::vector<double> due;
+  for (const double time : {0.0, 0.75, 1.5, 2.25, 2.5, 3.25})
+    if (whole.pass(time)) due.push_back(time);
+  EXPECT_EQ(due, (std::vector{0.0, 1.5, 2.25, 2.5, 3.25}));
+  EXPECT_FALSE(whole.kept_until());
+  for (const double time : {1.5, 2.25}) {
+    RowTimes resumed(1, {2.5}, Clock{time, 0.75, 3});
+    EXPECT_EQ(resumed.kept_until(), time);
+    EXPECT_FALSE(resumed.pass(time));
+  }
+  RowTimes asked(1, {2.5}, Clock{2.5, 0.25, 4});
+  EXPECT_EQ(asked.kept_until(), 2.5);
+  EXPECT_EQ(asked.next_time(), std::numeric_limits<double>::infinity());
+  RowTimes between(1, {2.5}, Clock{0.75, 0.75, 1});
+  EXPECT_LT(*between.kept_until(), 0.75);
+  EXPECT_TRUE(between.pass(1.5));
+}
+
 TEST(FrameGovernor, PassesOverTheFirstFrameAndJudgesFromTheSixthOn) {
   FrameGovernor governor(0.15);
   EXPECT_FALSE(governor.excess(100, 0));  // what it takes to start the renderer

@@ -64,6 +64,39 @@ TEST_F(CheckpointTest, KeepsTheNewestTwo) {
   EXPECT_EQ(read_checkpoint(*latest_checkpoint(folder / "checkpoints")).step, 100);
 }
 
+TEST_F(CheckpointTest, KeepsAsManyAsAskedFor) {
+  for (const int step : {1, 2, 3, 4}) {
+    view.step = step;
+    write_rotating_checkpoint(folder / "checkpoints", view, 3);
+  }
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder / "checkpoints"), {}), 3);
+}
+
+/// Any byte that changes is noticed.
+TEST_F(CheckpointTest, ADamagedOneIsNamedAndTheOneBeforeItIsUsed) {
+  for (const int step : {10, 20}) {
+    view.step = step;
+    write_rotating_checkpoint(folder, view);
+  }
+  const fs::path newest = *latest_checkpoint(folder);
+  for (const auto at : {600, 2000, 60000, static_cast<int>(fs::file_size(newest)) - 1}) {
+    std::fstream file(newest, std::ios::in | std::ios::out | std::ios::binary);
+    file.seekg(at);
+    const char byte = static_cast<char>(file.get());
+    const auto put = [&](char value) { file.seekp(at).put(value).flush(); };
+    put(static_cast<char>(byte ^ 4));
+    std::vector<std::string> problems;
+    EXPECT_EQ(read_latest_checkpoint(folder, problems).step, 10) << at;
+    ASSERT_EQ(problems.size(), 1u);
+    EXPECT_NE(problems[0].find("checkpoint_000000000020.h5"), std::string::npos);
+    put(byte);
+    EXPECT_EQ(read_latest_checkpoint(folder, problems).step, 20);
+  }
+  EXPECT_EQ(set_later_checkpoints_aside(folder, 10), std::vector<std::string>{"checkpoint_000000000020.h5"});
+  EXPECT_EQ(latest_checkpoint(folder)->filename(), "checkpoint_000000000010.h5");
+  EXPECT_TRUE(fs::exists(newest.string() + ".aside"));
+}
+
 TEST_F(CheckpointTest, NamesWhatIsWrong) {
   const auto message = [](auto&& call) {
     try {
@@ -83,7 +116,7 @@ TEST_F(CheckpointTest, NamesWhatIsWrong) {
   EXPECT_NE(message([&] { read_checkpoint(folder / "absent.h5"); }).find("missing"), std::string::npos);
   std::ofstream(folder / "text.h5") << "no HDF5";
   EXPECT_NE(message([&] { read_checkpoint(folder / "text.h5"); }).find("another format"), std::string::npos);
-  EXPECT_NE(message([&] { write_checkpoint(folder / "none" / "c.h5", view); }).find("cannot be written: No such file"),
+  EXPECT_NE(message([&] { write_checkpoint(file / "c.h5", view); }).find("cannot be written: Not a directory"),
             std::string::npos);
 
   id.pop_back();

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 
 #include "base/errors.hpp"
 #include "output/history.hpp"
@@ -51,8 +52,29 @@ TEST(Csv, ResumeDropsLaterRowsAndTornLines) {
 }
 
 TEST(Csv, UnwritablePlaceIsAnOutputError) {
-  EXPECT_THROW(CsvWriter(scratch("no_such_folder") / "a.csv", columns), OutputError);
+  const auto in_the_way = scratch("a_file");
+  std::ofstream(in_the_way) << "no folder";
+  CsvWriter writer(in_the_way / "a.csv", columns);
+  EXPECT_THROW(writer.row(std::vector<CsvCell>{0.0, std::int64_t{0}, std::string("x")}), OutputError);
   EXPECT_THROW(read_csv(scratch("missing.csv")), InputError);
+}
+
+TEST(Csv, RowsThatCouldNotBeWrittenComeWithTheNext) {
+  const auto folder = scratch("comes_and_goes"), file = folder / "a.csv";
+  std::filesystem::remove_all(folder);
+  CsvWriter writer(file, columns);
+  const auto row = [&](int k) { writer.row(std::vector<CsvCell>{1.0 * k, std::int64_t{k}, std::string("x")}); };
+  row(0);
+  std::filesystem::remove_all(folder);
+  std::ofstream(folder) << "a file in the way";
+  EXPECT_THROW(row(1), OutputError);
+  EXPECT_THROW(row(2), OutputError);
+  std::filesystem::remove(folder);
+  row(3);
+  row(4);
+  const CsvTable table = read_csv(file);
+  ASSERT_EQ(table.rows.size(), 5u);
+  for (std::size_t k = 0; k < 5; ++k) EXPECT_EQ(table.rows[k][1], std::to_string(k));
 }
 
 TEST(History, HasAColumnForEachQuantityAndGoesOnAfterARestart) {

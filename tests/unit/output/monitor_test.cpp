@@ -189,7 +189,7 @@ TEST(Monitor, FilesAreReplacedWholeAndThePageNeedsNothingElse) {
 TEST(Monitor, UnwritablePlaceIsAnOutputError) {
   const auto folder = empty_folder("file_in_the_way");
   std::ofstream(folder / "monitor") << "not a folder";
-  EXPECT_THROW(Monitor{folder}, OutputError);
+  EXPECT_THROW(Monitor{folder}.update({}), OutputError);
 }
 
 }  // namespace
