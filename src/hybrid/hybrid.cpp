@@ -11,6 +11,7 @@
 #include "hybrid/restriction.hpp"
 #include "material/matter_at.hpp"
 #include "scene/names.hpp"
+#include "scene/units.hpp"
 #include "schemes/kernels.hpp"
 #include "sph/assemble.hpp"
 #include "sph/stages.hpp"
@@ -32,10 +33,8 @@ Scene scene_of_particles(Scene scene) {
   return scene;
 }
 
-/// Of a particle, in cells.
-double reach_of(const Scene& scene) {
-  return kernel_support(scene.numerics.kernel) * scene.numerics.nodes_per_h / hybrid_settings(scene).ratio;
-}
+/// Of a particle, in spacings.
+double kernel_reach(const Scene& scene) { return kernel_support(scene.numerics.kernel) * scene.numerics.nodes_per_h; }
 
 }  // namespace
 
@@ -44,9 +43,14 @@ Hybrid<Dim>::Hybrid(const Scene& scene, const std::vector<Material>& materials)
     : scene_(with_gas_for_solids(scene, materials)),
       settings_(hybrid_settings(scene)),
       grid_(scene_of_grid(scene_), materials),
-      zone_(settings_, reach_of(scene)) {
+      zone_(settings_, kernel_reach(scene) / settings_.ratio) {
   if ((settings_.ratio & (settings_.ratio - 1)) != 0)
     throw InputError(fmt::format("{}: hybrid.ratio: expected a power of two, got {}", scene.file, settings_.ratio));
+  if ((settings_.ahead + settings_.behind) * settings_.ratio < kernel_reach(scene))
+    throw InputError(
+        fmt::format("{}: hybrid.ahead and hybrid.behind: expected together at least {:.0f} cells, as far as a particle "
+                    "sees, got {}",
+                    scene.file, std::ceil(kernel_reach(scene) / settings_.ratio), settings_.ahead + settings_.behind));
   clock = grid_.clock;
   if (scene.numerics.density != DensityMethod::summation)
     throw InputError(fmt::format("{}: numerics.density: expected summation with numerics.scheme = \"hybrid\", got {}",
@@ -54,8 +58,24 @@ Hybrid<Dim>::Hybrid(const Scene& scene, const std::vector<Material>& materials)
   if (std::ranges::any_of(scene.bodies, [&](const Body& body) { return is_solid(body, materials); }))
     solids_.emplace(scene, materials);
   zone_.update(grid_, cells_of_solids());
+  for (const std::size_t cell : cells_of_solids()) check_room(cell);
   lay_particles(materials);
   initial = conserved();
+}
+
+/// Whether the particles of gas around a solid can have gas around them.
+template <int Dim>
+void Hybrid<Dim>::check_room(std::size_t solid) const {
+  const Box<Dim>& box = grid_.box();
+  bool room = true;
+  for_cells_near<Dim>(box, box.cell(solid), settings_.around, [&](std::size_t cell, int squares) {
+    room = room && (squares > settings_.around * settings_.around || zone_[cell] == Part::active);
+  });
+  if (room) return;
+  throw InputError(fmt::format(
+      "{}: boundary: expected open faces at least {} cells of {} away from solid bodies, got one nearer to ({:.4g}) m",
+      scene_.file, zone_.depth() + settings_.around, format_quantity(box.spacing, "m"),
+      fmt::join(box.centre(box.cell(solid)), ", ")));
 }
 
 template <int Dim>
@@ -141,16 +161,19 @@ void Hybrid<Dim>::lay_particles(const std::vector<Material>& materials) {
   std::vector<Placement<Dim>> placements;
   if (solids_) placements = solids_->images(grid_.ambient().density);
   const std::size_t images = placements.size();
-  const auto in_a_solid = [&](const Vec<Dim>& x) {
-    return std::any_of(placements.begin(), placements.begin() + static_cast<std::ptrdiff_t>(images),
-                       [&](const Placement<Dim>& s) {
-                         return (s.x - x).norm() < room_for_particles * 0.5 * (s.spacing + scene_.spacing);
-                       });
+  std::vector<std::vector<Vec<Dim>>> solid(images > 0 ? grid_.box().size() : 0);
+  for (const Placement<Dim>& s : placements) solid[cell_of(grid_.box(), s.x)].push_back(s.x);
+  const auto in_a_solid = [&](std::size_t cell, const Vec<Dim>& x) {
+    bool found = false;
+    for_cells_near<Dim>(grid_.box(), grid_.box().cell(cell), 1, [&](std::size_t near, int) {
+      for (const Vec<Dim>& y : solid[near]) found = found || (y - x).norm() < room_for_particles * scene_.spacing;
+    });
+    return found;
   };
   for (const std::size_t cell : cells_of(false))
     for_points<Dim>(grid_.box().centre(grid_.box().cell(cell)), grid_.box().spacing, settings_.ratio,
                     [&](const Vec<Dim>& x) {
-                      if (images > 0 && in_a_solid(x)) return;
+                      if (images > 0 && in_a_solid(cell, x)) return;
                       placements.push_back({x, x, volume, scene_.spacing, grid_.state(cell).density, body, 0});
                     });
   const Scene scene = scene_of_particles(scene_);
@@ -205,9 +228,6 @@ void Hybrid<Dim>::lead_motion(Sph<Dim>& sph) const {
   });
 }
 
-/// Led particles have the density of the grid. Those with all their neighbours take the mass for that in the volume
-/// that these leave them, so that nothing changes when they are let go, however they lie: masses of particles are in no
-/// ledger. Sums at the rim are cut off: there it is the volume that follows from the mass.
 template <int Dim>
 void Hybrid<Dim>::lead_state(Sph<Dim>& sph) const {
   if (after_ || !laid_density_.empty()) lead_gas(sph);
@@ -217,6 +237,9 @@ void Hybrid<Dim>::lead_state(Sph<Dim>& sph) const {
   }
 }
 
+/// Led particles have the density of the grid. Those with all their neighbours take the mass for that in the volume
+/// that these leave them, so that nothing changes when they are let go, however they lie: masses of particles are in no
+/// ledger. Sums at the rim are cut off: there it is the volume that follows from the mass.
 template <int Dim>
 void Hybrid<Dim>::lead_gas(Sph<Dim>& sph) const {
   Particles<Dim>& p = sph.particles;

@@ -76,6 +76,7 @@ class Hybrid final : public Package {
   void lead_rest(Sph<Dim>& sph) const;
   std::vector<std::size_t> cells_of(bool only_active) const;
   std::vector<std::size_t> cells_of_solids() const;
+  void check_room(std::size_t solid) const;
   void move_zone();
   void remove_outside();
   void fill_holes(const std::vector<Part>& before);

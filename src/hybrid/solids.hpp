@@ -33,7 +33,7 @@ Scene with_gas_for_solids(Scene scene, const std::vector<Material>& materials);
 template <int Dim>
 class Solids {
  public:
-  /// `filler`: of the gas at rest [as CellState]. Throws InputError if the scene asks for what cannot be.
+  /// The bodies of the scene that are no gas. Throws InputError if it asks for what cannot be.
   Solids(const Scene& scene, const std::vector<Material>& materials);
 
   Sph<Dim>& particles() { return *sph_; }

@@ -33,6 +33,8 @@ class Zone {
   /// The same zone in a box that has grown.
   void follow(const Box<Dim>& before, const Box<Dim>& now);
 
+  /// Cells of led particles around the active ones.
+  int depth() const { return depth_; }
   Part operator[](std::size_t cell) const { return parts_[cell]; }
   bool covered(std::size_t cell) const { return parts_[cell] != Part::grid; }
   std::size_t count(Part part) const;

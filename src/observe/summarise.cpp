@@ -83,6 +83,7 @@ Summary summarise(const Simulation& sim, const Frames& frames, const FragmentCon
   s.precision = name_of(sim.scene.numerics.precision);
   s.threads = max_threads();
   s.steps = sim.clock.step;
+  s.element_steps = element_steps(sim);
   s.time_s = sim.clock.time;
   s.wall_s = sim.wall_seconds + sim.insitu_seconds;
   with_particles(sim, [&](const auto& sph) { add_particles(s, sim, sph, frames, context); });

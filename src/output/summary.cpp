@@ -46,6 +46,7 @@ std::string summary_json(const Summary& s) {
   add("particles", s.particles);
   add("cells", s.cells);
   add("steps", s.steps);
+  add("element_steps", s.element_steps);
   add("time_s", s.time_s);
   add("wall_s", s.wall_s);
   add("particle_steps_per_s", s.particle_steps_per_s);

@@ -29,6 +29,7 @@ struct Summary {
   std::int64_t particles = 0;
   std::optional<std::int64_t> cells;  ///< of a grid
   std::int64_t steps = 0;
+  double element_steps = 0;  ///< of single particles and cells, all added
   double time_s = 0, wall_s = 0;
   std::optional<double> particle_steps_per_s, cell_steps_per_s, pair_interactions_per_s, neighbours_mean;
   std::optional<double> bytes_per_particle, peak_rss_mb;

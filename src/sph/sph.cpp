@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/parallel.hpp"
+#include "model/find_blast.hpp"
 #include "schemes/kernels.hpp"
 #include "sph/diagnostics.hpp"
 #include "sph/integrator.hpp"
@@ -76,6 +77,7 @@ Quantities Sph<Dim>::quantities() const {
     const double all = parallel_sum<double>(p.size(), [&](std::size_t i) { return mass[i]; });
     list.push_back({"damaged mass fraction", "1", broken / all, "share of the mass with damage above 0.99", true});
   }
+  if (scene.charge && scene.gas) std::ranges::move(quantities_of(blast()), std::back_inserter(list));
   return list;
 }
 

@@ -15,7 +15,7 @@ from statistics import median
 import numpy as np
 from harness import Run, RunFailed, execute, measure, order, rows
 
-from studies import AXES, COMMON, STUDIES, TOLERANCE
+from studies import COMMON, STUDIES, TOLERANCE, axes_of
 
 SHORT = 2.0  # s; runs up to this are repeated, and their median counts
 REPEATS = 3
@@ -76,12 +76,12 @@ def verification(cases, full, workspace, failures):
 def speed(study, case, axes, quick, workspace, failures):
     """All variants of all axes of a study, taking turns, so that other work on the machine hits them alike."""
     ladder = study.quick if quick else study.ladder
-    own = measure(case, ladder[0], workspace).scene["numerics"]
+    scene = measure(case, ladder[0], workspace).scene
     names, settings = {}, {}  # by what a variant comes to: two that come to the same are run once
     for axis in axes:
         for label, changes in axis.variants.items():
-            changed = {k: v for k, v in changes.items() if own[k.removeprefix("numerics.")] != v}
-            key = tuple(changed.items())
+            changed = {k: v for k, v in changes.items() if value(scene, k) != v}
+            key = text(changed)
             names.setdefault(key, []).append(f"{axis.name}={label}")
             settings[key] = changed
     series = {key: [] for key in settings}
@@ -108,9 +108,19 @@ def speed(study, case, axes, quick, workspace, failures):
                                    settings=text(settings[key]), repeats=min(count for _, count in turns))]
 
 
+def value(scene, key):
+    """Of a resolved scene; nothing if it has none."""
+    for word in key.split("."):
+        scene = scene.get(word, {})
+    return scene
+
+
 def text(settings):
-    return " ".join(f"{key}={str(value).lower() if isinstance(value, bool) else value}"
-                    for key, value in settings.items()) or "the scene's own settings"
+    def words(value):
+        if isinstance(value, tuple):
+            return " ".join(map(str, value))
+        return str(value).lower() if isinstance(value, bool) else str(value)
+    return " ".join(f"{key}={words(value)}" for key, value in settings.items()) or "the scene's own settings"
 
 
 def tolerance(case, quick, workspace, failures):
@@ -162,11 +172,10 @@ def run_campaign(options, parts, cases, workspace, meta):
         table += found
         np.savez_compressed(out / "profiles.npz", **profiles)
     by_name = {case.name: case for case in cases}
-    axes = [axis for axis in AXES if axis.name in parts]
-    for study in STUDIES:
-        if axes and study.case in by_name:
+    for study in {study.case: study for study in STUDIES}.values():  # those of one case differ by what they show
+        wanted = [axis for axis in axes_of(study) if axis.name in parts]
+        if wanted and study.case in by_name:
             try:
-                wanted = [axis for axis in axes if axis.name not in study.without]
                 table += speed(study, by_name[study.case], wanted, options.quick, workspace, failures)
             except Exception as failure:
                 failures.append(f"{study.case}: {describe(failure)}")

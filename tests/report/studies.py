@@ -21,6 +21,7 @@ class Axis:
     name: str
     title: str
     variants: dict
+    of: str = ""  # the one case whose choice it is; none: of all that have no choice of their own
 
 
 @dataclass(frozen=True)
@@ -46,6 +47,12 @@ STUDIES = (
     Study("compaction_shock_458", "Compaction shock", "density", "L1", "kg/m^3", (100, 200, 500), (50, 100, 200)),
 )
 
+BLAST = "hybrid_blast"
+STUDIES += tuple(Study(BLAST, f"Blast of 1 kt, {title}", quantity, norm, "1", (10, 20, 40), (10, 20))
+                 for title, quantity, norm in (("density of the shell at 1 ms", "density at 1000 us", "L1"),
+                                               ("radius of the shock at 1 ms", "shock radius at 1000 us", "relative"),
+                                               ("largest density", "peak density", "relative")))
+
 # For all: a step ends at the time of every frame, drawn or not, which would hide what the time-step factor does.
 COMMON = {"insitu.frames": 2}
 
@@ -66,7 +73,19 @@ AXES = (
         "on": {"numerics.density": "continuity", "numerics.gradient_correction": True}}),
     Axis("courant", "Time-step factor", {
         f"{c:g}": {"numerics.courant": c} for c in (0.25, 0.1, 0.4, 0.5)}),
+    Axis("method", "Particles everywhere, at the shock alone, or none", {
+        "particles": {"numerics.scheme": "gsph", "boundary.max": (52, 52, "m")},
+        "hybrid, ratio 2": {"hybrid.ratio": 2},
+        "hybrid, ratio 4": {"hybrid.ratio": 4},
+        "grid": {"numerics.scheme": "fvm"}}, of=BLAST),
 )
+
+
+def axes_of(study):
+    """What is varied in a study."""
+    own = [axis for axis in AXES if axis.of == study.case]
+    return own or [axis for axis in AXES if not axis.of and axis.name not in study.without]
+
 
 TOLERANCE = ToleranceStudy("compaction_shock_458", 200, 100, "density", "L1", "kg/m^3",
                            ("safe_newton", "bisection", "newton"),

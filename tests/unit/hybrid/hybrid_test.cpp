@@ -423,6 +423,10 @@ TEST(HybridSolids, NeedGasAroundThemAndFineParticles) {
   std::string alone = block;
   alone.replace(alone.find("[gas]"), alone.find("[[bodies]]") - alone.find("[gas]"), "");
   EXPECT_NE(message(alone, {}).find("expected [gas] around a solid"), std::string::npos);
+  EXPECT_NE(message(block, {"bodies.block.center=[\"0.9 m\", \"0 m\"]"}).find("expected open faces at least 6 cells"),
+            std::string::npos);
+  EXPECT_NE(message(block, {"hybrid.ahead=1", "hybrid.behind=0"}).find("expected together at least 2 cells"),
+            std::string::npos);
 }
 
 TEST(Hybrid, RefusesRatiosThatAreNoPowerOfTwo) {

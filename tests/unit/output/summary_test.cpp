@@ -26,6 +26,7 @@ TEST(Summary, HasExactlyThePromisedKeysInOrder) {
                                           "particles",
                                           "cells",
                                           "steps",
+                                          "element_steps",
                                           "time_s",
                                           "wall_s",
                                           "particle_steps_per_s",

@@ -120,10 +120,8 @@ class Run:
 
     @property
     def particle_steps(self):
-        """Or steps of cells: those at rest are skipped, and a box that grows had fewer at first."""
-        if self.on_grid:
-            return round(self.summary["cell_steps_per_s"] * self.summary["wall_s"] * (1 - self.summary["insitu_share"]))
-        return self.summary["particles"] * self.summary["steps"]
+        """And steps of cells: those at rest are skipped, and a box that grows had fewer at first."""
+        return round(self.summary["element_steps"])
 
     @property
     def energy_drift(self):
