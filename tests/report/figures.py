@@ -93,7 +93,7 @@ def work_precision(file, axis, panels, cost, caption):
         guide(ax, -1 / growth(next(iter(curves.values()))), "first order in the spacing", *zip(*points))
         logarithmic(ax)
         ax.set(title=study.title, xlabel=COST_LABELS[cost],
-               ylabel=f"{study.quantity} {study.norm} error [{study.unit}]")
+               ylabel=textwrap.fill(f"{study.quantity} {study.norm} error [{study.unit}]", 30))
     most = max(range(len(panels)), key=lambda k: len(panels[k][1]))
     save(figure, file, axis.title, caption, legend=axes[most])
 

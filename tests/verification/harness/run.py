@@ -142,11 +142,12 @@ class Run:
         hold what faces took, walls or not."""
         if self.on_grid:
             return self.summary["momentum_error_rel"]
-        kinds = [self.scene["boundary"][axis] for axis in "xyz"[:self.dimension]]
+        boundary = self.scene["boundary"]
+        free = [axis for axis in "xyz"[:self.dimension] if not any(
+            boundary.get(key) in ("reflecting", "symmetry") for key in (axis, f"{axis}_min", f"{axis}_max"))]
         energy = self.history["kinetic energy"] + np.abs(self.history["internal energy"])
         scale = np.sqrt(2 * self.history["mass"] * energy).max()
-        drifts = [np.abs(p - p[0]).max() for axis, kind in zip("xyz", kinds) if kind not in ("reflecting", "symmetry")
-                  for p in [self.history[f"momentum {axis}"]]]
+        drifts = [np.abs(p - p[0]).max() for axis in free for p in [self.history[f"momentum {axis}"]]]
         return float(max(drifts) / scale) if drifts and scale > 0 else float("nan")
 
 
