@@ -37,10 +37,13 @@ def settings():
 
 
 def channel(name):
-    """The source of a channel: particles, slice, ellipsoids or fragments.
+    """The source of a channel: particles, slice, ellipsoids, fragments, or another of settings()["channels"].
 
     To be called where the script begins: only channels that have a source by then are made for the first frame.
     """
+    known = settings()["channels"]
+    if name not in known:
+        raise ValueError(f"channel '{name}' unknown; this run has {', '.join(known)}")
     return PVTrivialProducer(registrationName=name)
 
 
@@ -86,7 +89,10 @@ def set_font(target, prefix=""):
 
 def style(field):
     """How the run shows a field: unit, label, range [SI] or None, colours (x, red, green, blue, ... over the range)."""
-    return settings()["fields"][field]
+    known = settings()["fields"]
+    if field not in known:
+        raise ValueError(f"field '{field}' unknown; this run has {', '.join(known)}")
+    return known[field]
 
 
 def label(field):

@@ -30,6 +30,7 @@ std::vector<View> read_views(const fs::path& folder, std::vector<std::string>& p
   std::vector<View> views;
   for (const std::vector<std::string>& row : table.rows) {
     const fs::path image = fs::absolute(folder / row[file_column]);
+    if (image.extension() != ".png" && image.extension() != ".jpg") continue;  // data that a pipeline has written
     if (!fs::exists(image)) {
       problems.push_back(fmt::format("{}: image is missing, left out of the movie", image.string()));
       continue;

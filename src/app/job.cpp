@@ -36,7 +36,7 @@ Job read_job(const std::string& scene_file, const std::vector<std::string>& over
   set_threads(job.scene.threads.value_or(available_cores()));
   const InSitu& insitu = job.scene.insitu;
   if (!insitu.enabled) return job;
-  check_pipeline_scripts(pipeline_scripts(job.scene));
+  check_pipeline_scripts(pipelines_of(job.scene));
   // The question takes a second.
   if (insitu.on_error == OnError::abort && !gl_works())
     throw InputError(job.scene.file + ": insitu.on_error: expected rendering to work here, got no OpenGL context");

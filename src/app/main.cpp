@@ -16,6 +16,7 @@
 #include "material/material_reader.hpp"
 #include "model/package_kind.hpp"
 #include "scene/scene_reader.hpp"
+#include "scene/units.hpp"
 
 namespace {
 
@@ -58,6 +59,7 @@ std::string mistyped(const CLI::App& app, int argc, char** argv) {
 int main(int argc, char** argv) {
   using namespace ejecta;
   limit_spinning(argv);
+  std::signal(SIGPIPE, SIG_IGN);  // so is a Catalyst Live client that has gone
   std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error of the write
   if (argc == 2 && std::string_view(argv[1]) == "gl-probe") return run_gl_probe();
   log_to_terminal();
@@ -122,9 +124,29 @@ int main(int argc, char** argv) {
   CLI::App* movie = app.add_subcommand("movie", "make the movies of a run folder again");
   movie->add_option("folder", folder, "run folder")->required();
   movie->add_option("--fps", frames_per_second, "frames per second (default: about eight seconds in all)");
-  CLI::App* replay = app.add_subcommand("replay", "show the last checkpoint of a run folder to the pipelines once");
-  replay->add_option("folder", folder, "run folder")->required();
-  replay->add_option("--out", options.out, "where the images go (default: <folder>/replay)");
+  CLI::App* replay = app.add_subcommand("replay", "show checkpoints and snapshots of a run folder to pipelines again");
+  ReplayOptions replay_options;
+  ExportOptions export_options;
+  std::string at;
+  const auto states = [&](CLI::App* command, StateChoice& choice) {
+    CLI::Option* time = command->add_option("--at", at, "the state nearest to this time, e.g. 20us");
+    command->add_flag("--all", choice.all, "all checkpoints and snapshots (default: the last one)")->excludes(time);
+  };
+  replay->add_option("folder", replay_options.folder, "run folder")->required();
+  replay->add_option("--out", replay_options.out, "where the images go (default: <folder>/replay)");
+  replay->add_option("--pipeline", replay_options.pipelines, "script in place of those of the run (repeatable)")
+      ->allow_extra_args(false);
+  replay->add_option("--set", replay_options.overrides, "replace a value of [insitu], e.g. --set insitu.view_size=8cm")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  states(replay, replay_options.states);
+  CLI::App* export_app =
+      app.add_subcommand("export", "checkpoints and snapshots of a run folder as files that ParaView opens");
+  export_app->add_option("folder", export_options.folder, "run folder")->required();
+  export_app->add_option("--format", export_options.format, "vtp (grids: vti; with a .pvd of all times) or xdmf")
+      ->check(CLI::IsMember({"vtp", "xdmf"}));
+  export_app->add_option("--out", export_options.out, "where they go (default: <folder>/export)");
+  states(export_app, export_options.states);
   CLI::App* info = app.add_subcommand("info", "version, compiler, vector width");
   try {
     app.parse(argc, argv);
@@ -149,7 +171,9 @@ int main(int argc, char** argv) {
     if (*check) return check_command(options.scene_file, options.overrides);
     if (*control) return control_command(folder, words);
     if (*movie) return movie_command(folder, frames_per_second);
-    if (*replay) return replay_command(folder, options.out);
+    if (!at.empty()) replay_options.states.at = export_options.states.at = parse_quantity(at, "s");
+    if (*replay) return replay_command(replay_options);
+    if (*export_app) return export_command(export_options);
     if (*describe) fmt::print("{}", reference(section, package_sections()));
     if (*info) return info_command();
     return exit_code::done;

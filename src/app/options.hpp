@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,13 +33,37 @@ struct ReferenceOptions {
   std::vector<std::string> overrides;  ///< key=value
 };
 
+/// Which states of a run are meant: the one nearest to a time, all, or else the last.
+struct StateChoice {
+  std::optional<double> at;  ///< s
+  bool all = false;
+};
+
+/// What the command line of `ejecta replay` says.
+struct ReplayOptions {
+  std::string folder;                  ///< of the run
+  std::string out;                     ///< where images/ goes; empty: <folder>/replay
+  std::vector<std::string> pipelines;  ///< scripts in place of those of the run
+  std::vector<std::string> overrides;  ///< key=value, of [insitu]
+  StateChoice states;
+};
+
+/// What the command line of `ejecta export` says.
+struct ExportOptions {
+  std::string folder;          ///< of the run
+  std::string out;             ///< empty: <folder>/export
+  std::string format = "vtp";  ///< or xdmf
+  StateChoice states;
+};
+
 int run_command(const RunOptions& options);
 /// The one-dimensional solution that runs of a scene are compared with, and how well it has converged.
 int reference_command(const ReferenceOptions& options);
 /// Sets the scene up as a run does, so that whatever refuses a run before its first step refuses the check.
 int check_command(const std::string& scene_file, const std::vector<std::string>& overrides);
 int movie_command(const std::string& folder, int frames_per_second);
-int replay_command(const std::string& folder, const std::string& out);
+int replay_command(const ReplayOptions& options);
+int export_command(const ExportOptions& options);
 int info_command();
 /// Leaves a line of control for the run that goes on in the folder.
 int control_command(const std::string& folder, const std::vector<std::string>& words);

@@ -1,43 +1,71 @@
+#include <fmt/format.h>
+
 #include <filesystem>
 
-#include "observe/frames.hpp"
 #include "app/log.hpp"
 #include "app/options.hpp"
+#include "app/saved_states.hpp"
 #include "base/errors.hpp"
+#include "base/json.hpp"
 #include "insitu/gl_probe.hpp"
-#include "material/material_reader.hpp"
-#include "model/package_kind.hpp"
-#include "observe/checkpoints.hpp"
-#include "scene/scene_reader.hpp"
+#include "insitu/pipelines.hpp"
+#include "observe/frames.hpp"
+#include "scene/units.hpp"
 
 namespace ejecta {
 
 namespace {
 
-int replay(const Scene& scene, const Materials& materials, const Checkpoint& checkpoint,
-              const std::filesystem::path& out) {
-  Simulation sim = set_up_simulation(scene, materials.list);
-  restore(sim, checkpoint);
-  std::filesystem::create_directories(out);
-  Outputs outputs;
-  const std::unique_ptr<Frames> frames = make_frames(sim, out, outputs, gl_works());
-  frames->observe(sim, true);
-  if (!outputs.missing().empty()) return exit_code::failed;
-  spdlog::info("{} images in {}", frames->images(), (out / "images").string());
-  return 0;
+namespace fs = std::filesystem;
+
+/// What the command line changes of the scene that was kept with the run: nothing but pictures.
+std::vector<std::string> overrides_of(const ReplayOptions& options) {
+  std::vector<std::string> overrides = options.overrides;
+  for (const std::string& assignment : overrides)
+    if (!assignment.starts_with("insitu."))
+      throw InputError(
+          fmt::format("--set {}: expected a key of [insitu]: a replay changes pictures alone", assignment));
+  if (!options.pipelines.empty()) {
+    std::vector<std::string> scripts;
+    for (const std::string& script : options.pipelines)  // beside where the user stands, or shipped
+      scripts.push_back(fs::is_regular_file(script) ? fs::absolute(script).string() : script);
+    overrides.push_back("insitu.pipelines=" + json_list(scripts));
+  }
+  overrides.push_back("insitu.enabled=true");
+  return overrides;
+}
+
+/// Why nothing has been drawn.
+std::string reason_of(const Frames& frames) {
+  std::string text;
+  for (const PipelineCount& pipeline : frames.pipelines())
+    text += fmt::format("{}pipeline {} was run {} times, failed {} times and wrote nothing", text.empty() ? "" : "; ",
+                        pipeline.name, pipeline.frames, pipeline.failures);
+  return text;
 }
 
 }  // namespace
 
-int replay_command(const std::string& folder, const std::string& out) {
-  const std::filesystem::path run = folder;
-  const auto file = latest_checkpoint(run / "checkpoints");
-  if (!file) throw InputError(folder + ": expected a run folder with a checkpoint, found none");
-  const Checkpoint checkpoint = read_checkpoint(*file);
-  const Scene scene = parse_scene(checkpoint.scene, file->string(), {}, {package_sections(), {}});
-  const Materials materials = read_materials(scene, material_library());
-  const std::filesystem::path to = out.empty() ? run / "replay" : std::filesystem::path(out);
-  return replay(scene, materials, checkpoint, to);
+int replay_command(const ReplayOptions& options) {
+  const fs::path run = options.folder, out = options.out.empty() ? run / "replay" : fs::path(options.out);
+  const std::vector<SavedState> states = saved_states(run, options.states);
+  const std::vector<std::string> overrides = overrides_of(options);
+  SavedRun saved(states.front(), overrides);
+  const Scene& scene = saved.simulation().scene;
+  check_pipeline_scripts(pipelines_of(scene));
+  fs::create_directories(out);
+  Outputs outputs;
+  const std::unique_ptr<Frames> frames = make_frames(saved.simulation(), out, outputs, gl_works());
+  frames->ignore_triggers();
+  for (const SavedState& state : states) {
+    if (&state != &states.front()) saved.go_to(state);
+    spdlog::info("{} at t = {}", state.file.filename().string(), format_quantity(state.time, "s"));
+    frames->observe(saved.simulation(), true);
+  }
+  if (!outputs.missing().empty()) return exit_code::failed;
+  if (frames->images() + frames->extracts() == 0) throw InputError(run.string() + ": 0 images: " + reason_of(*frames));
+  spdlog::info("{} images and {} other files in {}", frames->images(), frames->extracts(), (out / "images").string());
+  return exit_code::done;
 }
 
 }  // namespace ejecta

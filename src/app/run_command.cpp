@@ -119,8 +119,12 @@ void conclude(const Simulation& sim, const Frames& frames, const Job& job, Outpu
                      context.unit());
     });
   }
-  if (const int failed = frames.pipeline_failures(); failed > 0)
-    spdlog::warn("in situ: {} calls of pipelines have failed; insitu.log says why", failed);
+  for (const PipelineCount& pipeline : frames.pipelines())
+    if (pipeline.failures > 0)
+      spdlog::warn("pipeline {} failed {} of {} frames; insitu.log says why", pipeline.name, pipeline.failures,
+                   pipeline.frames);
+  if (frames.left_out() > 0)
+    spdlog::warn("{} frames drawn, {} left out to hold insitu.max_share", frames.drawn(), frames.left_out());
   for (const auto& package : sim.packages)
     for (const Remark& remark : package->remarks())
       spdlog::log(remark.worrying ? spdlog::level::warn : spdlog::level::info, "{}", remark.text);
@@ -182,6 +186,7 @@ int run(const Job& job) {
   const std::unique_ptr<Frames> frames_of_solver = make_frames(sim, job.folder, outputs, job.catalyst);
   Frames& frames = *frames_of_solver;
   if (checkpoint) frames.resume(sim, *checkpoint);
+  frames.observe(sim, false);  // tries the scripts
   checkpoint.reset();  // as large as the state
   const FragmentContext context = fragment_context(sim);
   Tables tables(job.scene, job.folder, frames, context, outputs, resume_at);
@@ -244,7 +249,16 @@ int run_command(const RunOptions& options) try {
   job.from = options.from;
   check_run_folder(options, job.folder);
   job.catalyst = job.scene.insitu.enabled && gl_works();
-  return run(job);
+  try {
+    return run(job);
+  } catch (const ScriptError&) {  // nothing is left behind: the run has not begun
+    if (!job.restart) {
+      clear_run_folder(job.folder);
+      std::error_code kept_if_filled;
+      fs::remove(job.folder, kept_if_filled);
+    }
+    throw;
+  }
 } catch (const fs::filesystem_error& error) {
   throw OutputError(error.path1(), error.code().message());
 }

@@ -14,6 +14,7 @@
 #include "observe/schedule.hpp"
 #include "output/checkpoint.hpp"
 #include "output/monitor.hpp"
+#include "render/csv_table.hpp"
 
 namespace ejecta {
 
@@ -55,16 +56,28 @@ bool is_written(const Written& place, std::string name) {
   return std::ranges::any_of(place.names, [&](const std::string& pattern) { return matches(pattern, name); });
 }
 
-bool holds_a_run(const fs::path& folder) {
-  return fs::is_regular_file(folder / "resolved.toml") &&
-         (fs::is_regular_file(folder / "run.log") || fs::is_regular_file(folder / "monitor/status.json") ||
-          fs::is_directory(folder / "checkpoints"));
-}
-
 /// True if `folder` is the other one or lies around it.
 bool holds(const fs::path& folder, const fs::path& other) {
   const fs::path outer = fs::weakly_canonical(folder), inner = fs::weakly_canonical(other);
   return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
+}
+
+/// What pipelines have written under names of their own: images/data.csv lists it.
+std::vector<fs::path> extracts_of(const fs::path& images) {
+  std::vector<fs::path> files;
+  if (!fs::is_regular_file(images / "data.csv")) return files;
+  const CsvTable table = read_csv(images / "data.csv");
+  const std::size_t name = table.find("FILE");
+  if (name == CsvTable::npos) return files;
+  for (const std::vector<std::string>& row : table.rows)
+    if (holds(images, images / row[name])) files.push_back(images / row[name]);
+  return files;
+}
+
+bool holds_a_run(const fs::path& folder) {
+  return fs::is_regular_file(folder / "resolved.toml") &&
+         (fs::is_regular_file(folder / "run.log") || fs::is_regular_file(folder / "monitor/status.json") ||
+          fs::is_directory(folder / "checkpoints"));
 }
 
 /// What a folder is that no run may replace.
@@ -128,18 +141,24 @@ void clear_run_folder(const fs::path& folder) {
     for (const fs::directory_entry& entry : fs::directory_iterator(inside))
       if (!fs::is_directory(entry.symlink_status()) && is_written(place, entry.path().filename().string()))
         files.push_back(entry.path());
+    if (place.folder == "images")
+      for (const fs::path& file : extracts_of(inside)) files.push_back(file);
     for (const fs::path& file : files) fs::remove(file);
+    std::vector<fs::path> emptied;  // that extracts have lain in
+    for (const fs::path& file : files)
+      if (file.parent_path() != inside) emptied.push_back(file.parent_path());
+    for (const fs::path& folder_of_extracts : emptied)
+      if (fs::exists(folder_of_extracts) && fs::is_empty(folder_of_extracts)) fs::remove(folder_of_extracts);
     if (!place.folder.empty() && fs::is_empty(inside) && !fs::is_symlink(inside)) fs::remove(inside);
   }
 }
 
 int remove_later_files(const fs::path& folder, const Clock& clock, const Scene& scene) {
-  const bool frame_now = FrameSchedule(scene.time_end, scene.insitu.frames, scene.output.times).falls_on(clock.time);
   const bool lineout_now = OutputTimes(scene.output.times).hold(clock.time);
   std::vector<fs::path> files;
   for (const MonitorView& view : read_views(folder))
     for (const MonitorFrame& frame : view.frames)
-      if (frame.step > clock.step || (frame.step == clock.step && !frame_now)) files.push_back(folder / frame.file);
+      if (frame.step > clock.step || (frame.step == clock.step && frame.reason == end_of_run)) files.push_back(folder / frame.file);
   std::error_code none;
   for (const auto& [place, begin, now] :
        {std::tuple{"snapshots", "snapshot_", true}, {"lineouts", "lineout_", lineout_now}})

@@ -35,10 +35,10 @@ get_filename_component(ejecta_root ${CMAKE_CURRENT_LIST_DIR}/../.. ABSOLUTE)
 set(insitu ${ejecta_root}/src/insitu)
 add_library(ejecta_insitu STATIC
   ${insitu}/catalyst_bridge.cpp ${insitu}/gl_probe.cpp ${insitu}/image_index.cpp ${insitu}/insitu_log.cpp
-  ${insitu}/pipelines.cpp ${insitu}/vtk_channels.cpp)
+  ${insitu}/pipelines.cpp ${insitu}/vtk_channels.cpp ${insitu}/vtk_files.cpp)
 target_compile_definitions(ejecta_insitu PRIVATE OMPI_SKIP_MPICXX)
 target_link_libraries(ejecta_insitu PUBLIC ejecta_render
-  PRIVATE ParaView::Catalyst ParaView::PythonCatalyst ParaView::RemotingServerManager VTK::RenderingOpenGL2 VTK::FiltersSources VTK::PythonInterpreter)
+  PRIVATE ParaView::Catalyst ParaView::PythonCatalyst ParaView::RemotingServerManager VTK::RenderingOpenGL2 VTK::FiltersSources VTK::IOXML VTK::IOXdmf2 VTK::PythonInterpreter)
 
 if(EJECTA_GL STREQUAL "osmesa")
   find_library(OSMESA_LIBRARY OSMesa REQUIRED)

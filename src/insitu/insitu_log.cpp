@@ -15,7 +15,7 @@ void InsituLog::DisplayText(const char* text) {
   // Said of every channel that a second script looks at in the same step.
   if (std::string_view(text).find("New time step is not after last time step") != std::string_view::npos) return;
   text_ += text;
-  if (file_.is_open()) file_ << text << std::flush;
+  if (file_.is_open() && !secret_) file_ << text << std::flush;
 }
 
 std::string InsituLog::reason(const std::string& script) const {

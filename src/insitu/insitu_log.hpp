@@ -16,6 +16,8 @@ class InsituLog : public vtkOutputWindow {
 
   void open(const std::string& path) { file_.open(path, std::ios::app); }
   void DisplayText(const char* text) override;
+  /// While this is so nothing goes to the file: what is said is an answer to a question of the program.
+  void keep_to_yourself(bool now) { secret_ = now; }
 
   const std::string& text() const { return text_; }
   void clear() { text_.clear(); }
@@ -27,6 +29,7 @@ class InsituLog : public vtkOutputWindow {
  private:
   std::ofstream file_;
   std::string text_;
+  bool secret_ = false;
 };
 
 /// Makes an InsituLog VTK's output window for as long as it lives.

@@ -62,22 +62,30 @@ std::vector<std::string> default_pipelines(const Scene& scene) {
   return scripts;
 }
 
-std::vector<std::string> pipeline_scripts(const Scene& scene) {
-  if (scene.insitu.pipelines.empty()) return default_pipelines(scene);
-  std::vector<std::string> scripts;
-  for (const std::string& name : scene.insitu.pipelines) {
-    if (name != default_pipelines_name) {
-      scripts.push_back(name);
-    } else {
-      for (std::string& script : default_pipelines(scene)) scripts.push_back(std::move(script));
-    }
-  }
-  return scripts;
+std::vector<Pipeline> plain_pipelines(const std::vector<std::string>& scripts) {
+  std::vector<Pipeline> pipelines;
+  for (const std::string& script : scripts) pipelines.push_back({script, {}, ""});
+  return pipelines;
 }
 
-void check_pipeline_scripts(const std::vector<std::string>& paths) {
+std::vector<Pipeline> pipelines_of(const Scene& scene) {
+  if (scene.insitu.pipelines.empty()) return plain_pipelines(default_pipelines(scene));
+  std::vector<Pipeline> pipelines;
+  for (const Pipeline& pipeline : scene.insitu.pipelines) {
+    if (pipeline.script != default_pipelines_name) {
+      pipelines.push_back(pipeline);
+      continue;
+    }
+    for (const std::string& script : default_pipelines(scene))
+      pipelines.push_back({script, pipeline.args, pipeline.every});
+  }
+  return pipelines;
+}
+
+void check_pipeline_scripts(const std::vector<Pipeline>& pipelines) {
   std::vector<std::string> problems;
-  for (const std::string& path : paths) {
+  for (const Pipeline& pipeline : pipelines) {
+    const std::string& path = pipeline.script;
     if (!std::filesystem::is_regular_file(path)) {
       problems.push_back(path + ": expected a Catalyst script, found no such file");
     } else if (std::string problem = syntax_problem(path); !problem.empty()) {
@@ -99,6 +107,7 @@ std::string frame_json(const PipelineSettings& s, std::span<const Channel> chann
       << ",\"radius_per_smoothing_length\":" << to_json(s.radius_per_smoothing_length)
       << ",\"nodes_per_h\":" << to_json(s.nodes_per_h) << ",\"kernel_support\":" << to_json(s.kernel_support)
       << ",\"fragment_target\":" << to_json(s.fragment_target) << ",\"prefixes\":" << json_list(si_prefixes)
+      << ",\"channels\":" << json_list(s.channels) << ",\"channels\":" << json_list(s.channels)
       << ",\"slice_fields\":" << json_list(s.slice_fields) << ",\"fields\":{";
   const char* separator = "";
   for (const auto& [name, unit] : units_of(channels)) {

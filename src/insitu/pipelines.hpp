@@ -14,7 +14,7 @@ namespace ejecta {
 
 /// Everything a pipeline may want to know, fixed for a run so that frames do not flicker.
 struct PipelineSettings {
-  std::vector<std::string> more_channels;  ///< that there may be beside channel_names
+  std::vector<std::string> channels;  ///< that the run has: by these names scripts register the sources that read them
   std::string run_folder;  ///< images go to <run_folder>/images
   std::string scene_title;
   int dimension = 3;
@@ -31,20 +31,20 @@ struct PipelineSettings {
   std::map<std::string, FieldStyle> styles;   ///< field -> how it is shown; others have a plain_style
 };
 
-/// Names of the channels, by which scripts register the sources that read them.
-inline constexpr std::array channel_names{"particles", "slice", "ellipsoids", "fragments", "grid"};
-
 /// Absolute paths of the scripts drawn by default: slice, of particles also cutaway and, where fragments are followed,
 /// fragments.
 std::vector<std::string> default_pipelines(const Scene& scene);
 
-/// The scripts of a scene: insitu.pipelines, with "default" replaced by the default ones, which are also what an empty
-/// list means.
-std::vector<std::string> pipeline_scripts(const Scene& scene);
+/// The pipelines of a scene: insitu.pipelines, with "default" replaced by the default ones, which are also what an
+/// empty list means.
+std::vector<Pipeline> pipelines_of(const Scene& scene);
+
+/// Scripts without arguments that are run with the frames.
+std::vector<Pipeline> plain_pipelines(const std::vector<std::string>& scripts);
 
 /// Compiles each script without running it. Throws InputError naming file and line of every script that is missing or
 /// has a syntax error.
-void check_pipeline_scripts(const std::vector<std::string>& paths);
+void check_pipeline_scripts(const std::vector<Pipeline>& pipelines);
 
 /// The settings, and unit and style of all fields of the channels, as one JSON text, which the scripts read. A style is
 /// a label, a range [SI] or null, and the colour map as x, red, green, blue, ... over the range, or over [0, 1] if

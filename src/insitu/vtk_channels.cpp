@@ -3,6 +3,8 @@
 #include <vtkAOSDataArrayTemplate.h>
 #include <vtkCellArray.h>
 #include <vtkImageData.h>
+#include <vtkInformation.h>
+#include <vtkInformationStringKey.h>
 #include <vtkIntArray.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -10,6 +12,7 @@
 #include <vtkSOADataArrayTemplate.h>
 #include <vtkTypeInt64Array.h>
 
+#include <algorithm>
 #include <array>
 #include <span>
 
@@ -38,10 +41,29 @@ vtkSmartPointer<vtkDataArray> wrap_columns(std::span<const std::span<const doubl
   return array;
 }
 
-void add_fields(const Channel& channel, vtkPointData& target) {
+/// As ParaView names them; of a symmetric tensor in the order in which VTK reads it.
+void name_components(vtkDataArray& array) {
+  static const std::map<int, std::vector<const char*>> names{
+      {3, {"X", "Y", "Z"}},
+      {6, {"XX", "YY", "ZZ", "XY", "YZ", "XZ"}},
+      {9, {"XX", "XY", "XZ", "YX", "YY", "YZ", "ZX", "ZY", "ZZ"}}};
+  if (const auto found = names.find(array.GetNumberOfComponents()); found != names.end())
+    for (std::size_t c = 0; c < found->second.size(); ++c)
+      array.SetComponentName(static_cast<vtkIdType>(c), found->second[c]);
+}
+
+/// `zeros`: the third component of the vectors of a plane.
+void add_fields(const Channel& channel, std::vector<double>& zeros, vtkPointData& target) {
   for (const FieldView& field : channel.fields) {
-    const auto array = wrap_columns(field.components);
+    std::vector<std::span<const double>> components = field.components;
+    if (components.size() == 2) {
+      zeros.resize(std::max(zeros.size(), components[0].size()), 0.0);
+      components.push_back(std::span<const double>(zeros).first(components[0].size()));
+    }
+    const auto array = wrap_columns(components);
     array->SetName(field.name.c_str());
+    array->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), field.unit.c_str());
+    name_components(*array);
     target.AddArray(array);
   }
   for (const IndexView& index : channel.indices) {
@@ -74,19 +96,19 @@ vtkSmartPointer<vtkCellArray> make_vertices(vtkIdType count) {
   return cells;
 }
 
-vtkSmartPointer<vtkDataSet> wrap_image(const Channel& channel) {
+vtkSmartPointer<vtkDataSet> wrap_image(const Channel& channel, std::vector<double>& zeros) {
   auto image = vtkSmartPointer<vtkImageData>::New();
   image->SetDimensions(channel.extent.data());
   image->SetOrigin(channel.origin.data());
   image->SetSpacing(channel.spacing.data());
-  add_fields(channel, *image->GetPointData());
+  add_fields(channel, zeros, *image->GetPointData());
   return image;
 }
 
 }  // namespace
 
 vtkSmartPointer<vtkDataSet> VtkChannels::wrap(const Channel& channel) {
-  if (channel.kind == ChannelKind::image) return wrap_image(channel);
+  if (channel.kind == ChannelKind::image) return wrap_image(channel, zeros_[channel.name]);
   const auto count = static_cast<vtkIdType>(channel.count);
   vtkSmartPointer<vtkCellArray>& vertices = vertices_[channel.name];
   if (!vertices || vertices->GetNumberOfCells() != count) vertices = make_vertices(count);
@@ -95,7 +117,7 @@ vtkSmartPointer<vtkDataSet> VtkChannels::wrap(const Channel& channel) {
   auto data = vtkSmartPointer<vtkPolyData>::New();
   data->SetPoints(points);
   data->SetVerts(vertices);
-  add_fields(channel, *data->GetPointData());
+  add_fields(channel, zeros_[channel.name], *data->GetPointData());
   add_coordinates(channel, *data->GetPointData());
   return data;
 }

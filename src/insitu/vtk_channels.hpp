@@ -6,6 +6,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "model/channel.hpp"
 
@@ -18,11 +19,12 @@ namespace ejecta {
 class VtkChannels {
  public:
   /// Points become a vtkPolyData with one vertex a point, an image a vtkImageData with point-centred fields (so that a
-  /// pixel's value belongs to its centre).
+  /// pixel's value belongs to its centre). Vectors of two components get a third one, zero.
   vtkSmartPointer<vtkDataSet> wrap(const Channel& channel);
 
  private:
   std::map<std::string, vtkSmartPointer<vtkCellArray>> vertices_;  ///< by channel name
+  std::map<std::string, std::vector<double>> zeros_;               ///< by channel name
 };
 
 }  // namespace ejecta

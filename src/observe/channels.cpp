@@ -1,9 +1,50 @@
 #include "observe/channels.hpp"
 
+#include <algorithm>
+
+#include "base/parallel.hpp"
 #include "observe/columns.hpp"
 #include "observe/slice.hpp"
 
 namespace ejecta {
+
+/// A field as VTK reads it: vectors of three components, symmetric tensors as XX, YY, ZZ, XY, YZ, XZ, others row by
+/// row. Our own order of a symmetric tensor is XX, YY, ZZ, XY, XZ, YZ, and in the plane there is no z.
+template <int Dim>
+FieldView FrameChannels<Dim>::shown(const Particles<Dim>& p, Field field) {
+  FieldView view = field_view(p, field);
+  auto& c = view.components;
+  const std::span<const double> zero = zeros_;
+  switch (info(field).shape) {
+    case Shape::scalar:
+      break;
+    case Shape::vector:
+      if (Dim == 2) c = {c[0], c[1], zero};
+      break;
+    case Shape::tensor:
+      if (Dim == 2) c = {c[0], c[1], zero, c[2], c[3], zero, zero, zero, zero};
+      break;
+    case Shape::symmetric:
+      if constexpr (Dim == 2)
+        c = {c[0], c[1], zero, c[2], zero, zero};
+      else
+        c = {c[0], c[1], c[2], c[3], c[5], c[4]};
+      break;
+    case Shape::deviator: {
+      const std::span<const double> xx = c[0], yy = c[1];
+      std::vector<double>& zz = last_diagonals_.emplace_back(p.size());
+      parallel_blocks(p.size(), 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) zz[i] = -(xx[i] + yy[i]);
+      });
+      if constexpr (Dim == 2)
+        c = {xx, yy, zz, c[2], zero, zero};
+      else
+        c = {xx, yy, zz, c[2], c[4], c[3]};
+      break;
+    }
+  }
+  return view;
+}
 
 template <int Dim>
 Channel FrameChannels<Dim>::particles(const Particles<Dim>& p, const std::optional<FragmentTable>& fragments) {
@@ -11,12 +52,13 @@ Channel FrameChannels<Dim>::particles(const Particles<Dim>& p, const std::option
   particles.name = "particles";
   particles.count = p.size();
   for (int a = 0; a < Dim; ++a) particles.position[static_cast<std::size_t>(a)] = p.column(Field::position, a);
+  last_diagonals_.clear();
   if (Dim == 2) {
     zeros_.assign(p.size(), 0.0);
     particles.position[2] = zeros_;
   }
   for (Field f : p.fields())
-    if (f != Field::position && info(f).role != Role::rate) particles.fields.push_back(field_view(p, f));
+    if (f != Field::position && info(f).role != Role::rate) particles.fields.push_back(shown(p, f));
   tensor_fields_ = tensor_fields(p);
   for (const OwnedField& field : tensor_fields_) particles.fields.push_back(field.view());
   particles.indices = {
@@ -69,7 +111,10 @@ Channel slice_channel(const SampledImage& image, int dimension, double plane_y) 
 
 template <int Dim>
 Channel FrameChannels<Dim>::slice(const Particles<Dim>& p, Kernel kernel, const PixelGrid& grid, double plane_y) {
-  slice_ = make_slice(p, kernel, grid, plane_y);
+  std::vector<Field> fields = slice_fields(p);
+  for (const Field more : {Field::density, Field::velocity})
+    if (std::ranges::find(fields, more) == fields.end()) fields.push_back(more);
+  slice_ = make_slice(p, fields, kernel, grid, plane_y);
   return slice_channel(slice_, Dim, plane_y);
 }
 

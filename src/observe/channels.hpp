@@ -2,14 +2,15 @@
 /// What the pipelines see of a simulation: its live columns, what is derived from them once a frame, slice and
 /// fragments.
 #include <array>
+#include <list>
 #include <optional>
 #include <vector>
 
+#include "analysis/fragments.hpp"
 #include "model/channel.hpp"
 #include "render/ellipsoids.hpp"
 #include "render/sampling.hpp"
 #include "scene/scene.hpp"
-#include "analysis/fragments.hpp"
 
 namespace ejecta {
 
@@ -23,7 +24,7 @@ class FrameChannels {
  public:
   /// All columns but rates, what follows from the tensors, and the fragment numbers where there is a table of them.
   Channel particles(const Particles<Dim>& p, const std::optional<FragmentTable>& fragments);
-  /// The slice fields in the plane y = plane_y [m].
+  /// The slice fields, density and velocity in the plane y = plane_y [m].
   Channel slice(const Particles<Dim>& p, Kernel kernel, const PixelGrid& grid, double plane_y);
   /// The smoothing ellipsoids of the layer about the plane y = plane_y [m].
   Channel ellipsoids(const Particles<Dim>& p, double plane_y, double nodes_per_h);
@@ -31,7 +32,10 @@ class FrameChannels {
   Channel fragments(const FragmentTable& table, std::size_t target);
 
  private:
+  FieldView shown(const Particles<Dim>& p, Field field);
+
   std::vector<double> zeros_;
+  std::list<std::vector<double>> last_diagonals_;  ///< zz of the deviators
   std::vector<OwnedField> tensor_fields_;
   SampledImage slice_;
   Ellipsoids ellipsoids_;

@@ -19,6 +19,9 @@ constexpr double first_wait = 60;  ///< s: a young run is worth a checkpoint soo
 constexpr double retry_wait = 30;  ///< s: after one that could not be written
 constexpr double never = std::numeric_limits<double>::infinity();
 
+/// Begins the names of what observers have noted.
+const std::string note = "note: ";
+
 /// Whether a restart may give the key another value: nothing that the particles have been through depends on it.
 bool may_change(const std::string& key) {
   for (const char* free : {"scene.title", "time.end", "time.max_steps", "run.threads"})
@@ -36,6 +39,7 @@ CheckpointView checkpoint_view(const Simulation& sim, const std::string& resolve
   view.step = sim.clock.step;
   view.scene = resolved;
   view.scalars = {{"wall_seconds", sim.wall_seconds}, {"insitu_seconds", sim.insitu_seconds}};
+  for (const auto& [name, value] : sim.notes) view.scalars[note + name] = value;
   for (const auto& package : sim.packages) save(*package, view);
   return view;
 }
@@ -71,6 +75,8 @@ void restore(Simulation& sim, const Checkpoint& checkpoint) {
   sim.wall_seconds = checkpoint.scalar("wall_seconds");
   if (checkpoint.scalars.contains("insitu_seconds"))  // not in checkpoints of earlier versions
     sim.insitu_seconds = checkpoint.scalar("insitu_seconds");
+  for (const auto& [name, value] : checkpoint.scalars)
+    if (name.starts_with(note)) sim.notes[name.substr(note.size())] = value;
   for (const auto& package : sim.packages) load(*package, checkpoint);
 }
 

@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "base/errors.hpp"
@@ -11,6 +12,7 @@
 #include "observe/particle_frames.hpp"
 #include "observe/solvers.hpp"
 #include "output/atomic_file.hpp"
+#include "scene/units.hpp"
 
 namespace ejecta {
 
@@ -31,10 +33,17 @@ PipelineSettings settings_of(const Simulation& sim, const std::filesystem::path&
   settings.styles = plan.styles;
   settings.slice_fields = plan.slice_fields;
   for (const auto& package : sim.packages)
-    for (const std::string& name : package->channel_names()) settings.more_channels.push_back(name);
+    for (const std::string& name : package->channel_names()) settings.channels.push_back(name);
   return settings;
 }
 
+bool is_picture(const std::filesystem::path& file) { return file.extension() == ".png" || file.extension() == ".jpg"; }
+
+/// Searches of fragments between two frames, for the events that only they tell.
+constexpr int looks_per_frame = 10;
+/// Frames after an event come so much denser than the others.
+constexpr int burst_density = 10;
+const std::string note = "insitu event: ";
 /// Renderers say little, and in words of their own, where an image cannot be written. So it is tried before. Throws
 /// OutputError.
 void check_room(const std::filesystem::path& images) {
@@ -73,41 +82,132 @@ Frames::Frames(const Simulation& sim, std::filesystem::path folder, Outputs& out
       view_(plan.view),
       slice_grid_(panel_grid(view_, sim.scene, static_cast<int>(plan.slice_fields.size()))),
       painter_(sim.scene, plan.styles, folder_ / "images"),
-      schedule_(sim.scene.time_end, sim.scene.insitu.frames, sim.scene.output.times),
-      governor_(sim.scene.insitu.max_share) {
+      schedule_(sim.scene),
+      governor_(sim.scene.insitu.max_share),
+      events_(sim.scene.insitu.events),
+      on_error_(sim.scene.insitu.on_error),
+      fragment_looks_(Every{.time = schedule_.interval() / looks_per_frame}, "") {
   ensure_folder(folder_ / "images");
-  if (catalyst)
-    bridge_ = std::make_unique<CatalystBridge>(pipeline_scripts(sim.scene),
-                                               settings_of(sim, folder_, plan, std::move(told)));
+  if (!catalyst) return;
+  const std::vector<Pipeline> pipelines = pipelines_of(sim.scene);
+  bridge_ = std::make_unique<CatalystBridge>(pipelines, settings_of(sim, folder_, plan, std::move(told)));
+  silent_.resize(pipelines.size());
+  for (const Pipeline& pipeline : pipelines) {
+    std::optional<Trigger>& trigger = triggers_.emplace_back();
+    if (!pipeline.every.empty()) trigger.emplace(parse_every(pipeline.every), "every " + pipeline.every);
+  }
 }
 
-void Frames::resume(const Simulation& sim, const Checkpoint&) { schedule_.resume(sim.clock.time); }
+double Frames::next_time() const {
+  double least = schedule_.next();
+  for (const std::optional<Trigger>& trigger : triggers_)
+    if (trigger) least = std::min(least, trigger->next());
+  return least;
+}
+
+void Frames::resume(const Simulation& sim, const Checkpoint&) {
+  const Moment now{sim.clock.step, sim.clock.time, sim.wall_seconds + sim.insitu_seconds};
+  schedule_.resume(now);
+  fragment_looks_.resume(now);
+  for (std::optional<Trigger>& trigger : triggers_)
+    if (trigger) trigger->resume(now);
+  std::map<std::string, double> memory;
+  for (const auto& [name, value] : sim.notes)
+    if (name.starts_with(note)) memory[name.substr(note.size())] = value;
+  events_.remember(memory);
+}
 
 void Frames::observe(Simulation& sim, bool last) {
-  if (!schedule_.take(sim.clock.step, sim.clock.time, last)) return;
-  ++drawn_;
-  const auto start = std::chrono::steady_clock::now();
-  look(sim);
-  if (sim.scene.insitu.enabled) outputs_.write("images", Outputs::Loss::for_good, [&] { draw(sim); });
-  sim.insitu_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const auto share = governor_.excess(sim.insitu_seconds, sim.wall_seconds);
-  if (share && sim.scene.insitu.enabled) {
-    schedule_.thin_out();
-    warn(
-        fmt::format("in-situ work takes {:.0f} % of the wall time (insitu.max_share = {:.0f} %): time between frames "
-                    "doubled",
-                    100 * *share, 100 * sim.scene.insitu.max_share));
+  const Moment now{sim.clock.step, sim.clock.time, sim.wall_seconds + sim.insitu_seconds};
+  FrameSchedule::Due frame = schedule_.take(now, last);
+  const bool enabled = sim.scene.insitu.enabled, first = !tried_;
+  const bool seen = now.step == last_step_ && !last;  // a run that is paused is looked at again and again
+  last_step_ = now.step;
+  if (seen && frame.reason.empty()) return;
+  if (enabled && !seen && events_.wants_any()) watch(sim, frame);
+  const std::vector<PipelineCall> calls = enabled ? calls_at(now, frame, last) : std::vector<PipelineCall>{};
+  if (!first && frame.reason.empty() && calls.empty()) return;
+  if (enabled && !first && !frame.always && !governor_.affords(sim.insitu_seconds, sim.wall_seconds)) {
+    if (left_out_++ == 0)
+      warn(fmt::format("frames are left out that would take more than {:.0f} % of the wall time (insitu.max_share)",
+                       100 * sim.scene.insitu.max_share));
+    return;
   }
-  keep(last);
+  const auto start = std::chrono::steady_clock::now();
+  const double before = sim.insitu_seconds;
+  on_schedule_ = frame.scheduled;
+  if (!frame.reason.empty()) {
+    ++drawn_;
+    look(sim);
+  }
+  if (enabled) outputs_.write("images", Outputs::Loss::for_good, [&] { draw(sim, frame, calls); });
+  tried_ = true;
+  sim.insitu_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  governor_.drawn(before, sim.insitu_seconds, sim.wall_seconds);
+  if (!frame.reason.empty()) keep(last);
 }
 
-void Frames::draw(Simulation& sim) {
+Signs Frames::signs(const Simulation& sim, bool) const {
+  Signs signs;
+  if (sim.voter) signs.time_step = sim.vote.dt;  // else no step has been taken
+  return signs;
+}
+
+/// Makes a frame of an event, and asks for those that follow it.
+void Frames::watch(Simulation& sim, FrameSchedule::Due& frame) {
+  const bool told_by_fragments = events_.wants(Event::first_fragment) || events_.wants(Event::largest_fragment_changed);
+  const bool fragments_too = told_by_fragments && fragment_looks_.take({sim.clock.step, sim.clock.time,
+                                                                        sim.wall_seconds + sim.insitu_seconds});
+  const auto start = std::chrono::steady_clock::now();
+  on_schedule_ = true;
+  if (fragments_too) look(sim);
+  const std::vector<std::string_view> words = events_.look(signs(sim, fragments_too));
+  for (const auto& [name, value] : events_.memory()) sim.notes[note + name] = value;
+  sim.insitu_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (words.empty()) return;
+  const std::string event = fmt::format("{}", fmt::join(words, " and "));
+  frame = {event, true, true};
+  std::vector<double> burst;
+  for (int k = 1; k <= sim.scene.insitu.burst; ++k)
+    burst.push_back(sim.clock.time + k * schedule_.interval() / burst_density);
+  schedule_.add(burst, "after " + event);
+  spdlog::info("{} at t = {}", event, format_quantity(sim.clock.time, "s"));
+}
+
+std::vector<PipelineCall> Frames::calls_at(const Moment& now, const FrameSchedule::Due& frame, bool last) {
+  std::vector<PipelineCall> calls;
+  for (std::size_t k = 0; k < triggers_.size(); ++k) {
+    std::string reason;
+    if (triggers_[k]) {
+      if (triggers_[k]->take(now)) reason = triggers_[k]->reason();
+      if (last && reason.empty()) reason = end_of_run;
+    } else {
+      if (bridge_->follows_frames(k)) reason = frame.reason;
+      if (bridge_->wants(k, now.step, now.time) && reason.empty()) reason = "trigger of the script";
+    }
+    if (ignores_triggers_ && reason.empty()) reason = end_of_run;
+    const bool disabled = silent_[k] && on_error_ == OnError::disable;
+    if (!reason.empty() && !disabled) calls.push_back({k, reason});
+  }
+  return calls;
+}
+
+void Frames::ignore_triggers() {
+  ignores_triggers_ = true;
+  if (bridge_) bridge_->ignore_triggers();
+}
+
+std::vector<PipelineCount> Frames::pipelines() const {
+  return bridge_ ? bridge_->counts() : std::vector<PipelineCount>{};
+}
+
+void Frames::draw(Simulation& sim, const FrameSchedule::Due& frame, const std::vector<PipelineCall>& calls) {
   check_room(folder_ / "images");
-  draw_more(sim);
+  if (!frame.reason.empty()) draw_more(sim);
   if (bridge_)
-    draw_with_catalyst(sim);
-  else
-    sim.timers.time("in situ: images", [&] { draw_without_gl(sim); });
+    draw_with_catalyst(sim, calls);
+  else if (!frame.reason.empty())
+    sim.timers.time("in situ: images", [&] { draw_without_gl(sim, frame.reason); });
 }
 
 void Frames::warn(std::string text) {
@@ -115,27 +215,45 @@ void Frames::warn(std::string text) {
   warnings_.push_back(std::move(text));
 }
 
-void Frames::draw_with_catalyst(Simulation& sim) {
+std::vector<Channel> Frames::all_channels(Simulation& sim) {
   std::vector<Channel> channels = make_channels(sim);
   for (const auto& package : sim.packages)
     for (Channel& channel : package->channels([&](const char* name) { return bridge_->reads(name); }))
       channels.push_back(std::move(channel));
+  return channels;
+}
+
+void Frames::draw_with_catalyst(Simulation& sim, const std::vector<PipelineCall>& calls) {
+  if (!tried_)
+    if (std::vector<std::string> problems = bridge_->unknown_channels(); !problems.empty())
+      throw ScriptError(std::move(problems));
+  const std::vector<Channel> channels = all_channels(sim);
   FrameReport report;
   sim.timers.time("in situ: images", [&] {
     const StderrTo log(folder_ / "insitu.log");
-    report = bridge_->execute(sim.clock.step, sim.clock.time, channels);
+    report = bridge_->execute(sim.clock.step, sim.clock.time, channels, calls);
   });
-  images_ += static_cast<int>(report.images.size());
-  for (const std::string& warning : report.warnings) {
-    if (sim.scene.insitu.on_error == OnError::abort) throw SimulationError("in situ: " + warning);
-    warn("in situ: " + warning);
+  if (!tried_) {
+    std::vector<std::string> problems = bridge_->unknown_fields(sim.clock.step, sim.clock.time, channels);
+    if (problems.empty())
+      for (const FrameReport::Failure& failure : report.failures) problems.push_back(failure.text);
+    if (!problems.empty()) throw ScriptError(std::move(problems));
   }
+  for (const std::string& file : report.files) ++(is_picture(file) ? images_ : extracts_);
+  for (const FrameReport::Failure& failure : report.failures) fail(failure);
 }
 
-void Frames::draw_without_gl(const Simulation& sim) {
+void Frames::fail(const FrameReport::Failure& failure) {
+  if (on_error_ == OnError::abort) throw SimulationError("in situ: " + failure.text);
+  if (silent_[failure.pipeline]) return;
+  silent_[failure.pipeline] = true;
+  warn("in situ: " + failure.text + (on_error_ == OnError::disable ? "; it is not run any more" : ""));
+}
+
+void Frames::draw_without_gl(const Simulation& sim, const std::string& reason) {
   if (!index_) index_.emplace(folder_ / "images");
   painter_.paint_slice(make_slice(), sim.clock);
-  images_ += static_cast<int>(index_->add_new_images(sim.clock.step, sim.clock.time).size());
+  images_ += static_cast<int>(index_->add_new_files(sim.clock.step, sim.clock.time, reason).size());
 }
 
 std::unique_ptr<Frames> make_frames(const Simulation& sim, const std::filesystem::path& folder, Outputs& outputs,

@@ -11,6 +11,7 @@
 #include "insitu/image_index.hpp"
 #include "insitu/pipelines.hpp"
 #include "observe/outputs.hpp"
+#include "observe/events.hpp"
 #include "observe/painter.hpp"
 #include "observe/schedule.hpp"
 #include "observe/view.hpp"
@@ -29,7 +30,9 @@ struct PicturePlan {
 /// What is common to the pictures of all solvers: when, how often, and by whom they are drawn.
 class Frames : public Observer {
  public:
-  double next_time() const override { return schedule_.next(); }
+  double next_time() const override;
+  /// At the first call every pipeline that is due then is tried: throws ScriptError.
+  /// Later a pipeline that fails is counted, and throws SimulationError with insitu.on_error = "abort".
   void observe(Simulation& sim, bool last) override;
   /// After a restart: the next frame is the first one later than the checkpoint.
   virtual void resume(const Simulation& sim, const Checkpoint& checkpoint);
@@ -45,10 +48,14 @@ class Frames : public Observer {
   const std::vector<std::string>& warnings() const { return warnings_; }
   /// One line for the log and the monitor page.
   void warn(std::string text);
-  int images() const { return images_; }
-  int drawn() const { return drawn_; }  ///< frames so far
-  /// Calls of Catalyst scripts that failed.
-  int pipeline_failures() const { return bridge_ ? bridge_->failures() : 0; }
+  int images() const { return images_; }      ///< pictures so far
+  int extracts() const { return extracts_; }  ///< other files that pipelines have written
+  int drawn() const { return drawn_; }        ///< frames so far
+  int left_out() const { return left_out_; }  ///< frames that insitu.max_share did not allow
+  /// Calls and failures of the Catalyst scripts; none without Catalyst.
+  std::vector<PipelineCount> pipelines() const;
+  /// Every pipeline is run at every call, whatever its triggers say.
+  void ignore_triggers();
 
  protected:
   /// `told`: what else the pipelines are to know. With `catalyst` they draw, otherwise Ejecta's own painter.
@@ -64,9 +71,11 @@ class Frames : public Observer {
   virtual SampledImage make_slice() = 0;
   /// After a frame.
   virtual void keep(bool /*last*/) {}
-  /// Whether there is a frame at this time [s] whoever stops or asks.
-  bool on_schedule(double time) const { return schedule_.falls_on(time); }
+  /// Whether this look is one that a run which nobody stops or asks has too.
+  bool on_schedule() const { return on_schedule_; }
   bool reads(const char* channel) const { return bridge_->reads(channel); }
+  /// From which events are told; those that only fragments tell if `fragments_too`.
+  virtual Signs signs(const Simulation& sim, bool fragments_too) const;
 
   std::filesystem::path folder_;
   Outputs& outputs_;
@@ -76,16 +85,27 @@ class Frames : public Observer {
   std::optional<FragmentTable> fragments_;
 
  private:
-  void draw(Simulation& sim);
-  void draw_with_catalyst(Simulation& sim);
-  void draw_without_gl(const Simulation& sim);
+  void watch(Simulation& sim, FrameSchedule::Due& frame);
+  std::vector<PipelineCall> calls_at(const Moment& now, const FrameSchedule::Due& frame, bool last);
+  std::vector<Channel> all_channels(Simulation& sim);
+  void draw(Simulation& sim, const FrameSchedule::Due& frame, const std::vector<PipelineCall>& calls);
+  void draw_with_catalyst(Simulation& sim, const std::vector<PipelineCall>& calls);
+  void fail(const FrameReport::Failure& failure);
+  void draw_without_gl(const Simulation& sim, const std::string& reason);
 
   FrameSchedule schedule_;
   FrameGovernor governor_;
+  EventWatch events_;
+  OnError on_error_;
+  Trigger fragment_looks_;  ///< when events are looked for that only fragments tell
   std::unique_ptr<CatalystBridge> bridge_;
+  std::vector<std::optional<Trigger>> triggers_;  ///< of the pipelines that have one in the scene
+  std::vector<bool> silent_;                      ///< pipelines that are run no more, or have been reported
+  bool tried_ = false, ignores_triggers_ = false, on_schedule_ = true;
+  std::int64_t last_step_ = -1;      ///< that was observed
   std::optional<ImageIndex> index_;  ///< of the images drawn without Catalyst
   std::vector<std::string> warnings_;
-  int drawn_ = 0, images_ = 0;
+  int drawn_ = 0, left_out_ = 0, images_ = 0, extracts_ = 0;
 };
 
 /// Those of the solver that the simulation has, which must outlive them.

@@ -77,7 +77,11 @@ PicturePlan plan_of(const Simulation& sim, const Grid<Dim>& grid) {
 template <int Dim>
 PipelineSettings told_of(const Simulation& sim) {
   const Sph<Dim>* solids = solids_of(find_package<Hybrid<Dim>>(sim));
-  return solids ? pipeline_settings(*solids) : PipelineSettings{};
+  PipelineSettings told = solids ? pipeline_settings(*solids) : PipelineSettings{};
+  told.channels = {"slice"};
+  if (solids) told.channels.push_back("particles");
+  if (solids && sim.scene.fragments.enabled) told.channels.push_back("fragments");
+  return told;
 }
 
 /// The pixels without those beyond faces that stay where they are: nothing will ever be there.
@@ -106,9 +110,14 @@ GridFrames<Dim>::GridFrames(const Simulation& sim, const Grid<Dim>& grid, const 
   slice_grid_ = within(slice_grid_, grid.box());
 }
 
-/// What the cells hold at the centres of the pixels.
 template <int Dim>
 SampledImage GridFrames<Dim>::make_slice() {
+  return sample(false);
+}
+
+/// What the cells hold at the centres of the pixels.
+template <int Dim>
+SampledImage GridFrames<Dim>::sample(bool with_velocity) {
   SampledImage image;
   image.grid = slice_grid_;
   const auto width = static_cast<std::size_t>(slice_grid_.width), height = static_cast<std::size_t>(slice_grid_.height);
@@ -116,10 +125,15 @@ SampledImage GridFrames<Dim>::make_slice() {
   const bool damage = shows_damage(solids_);
   image.fields = {
       {"density", "kg/m^3", {nothing}}, {"pressure", "Pa", {nothing}}, {damage ? "damage" : "mach", "1", {nothing}}};
+  if (with_velocity) image.fields.push_back({"velocity", "m/s", std::vector<std::vector<double>>(Dim, nothing)});
   if (hybrid_) hybrid_->look();
   // The edge of what particles fill is left blank, a line one pixel wide.
   const auto active = [&](const Vec<Dim>& x) {
     return hybrid_ && grid_.at(x) && hybrid_->zone()[cell_of(grid_.box(), x)] == Part::active;
+  };
+  // In space the picture plane is x-z, but its vectors keep all three components.
+  const auto set_velocity = [&](std::size_t i, const Vec<Dim>& v) {
+    for (int a = 0; a < Dim; ++a) image.fields[3].components[static_cast<std::size_t>(a)][i] = v[a];
   };
   parallel_blocks(height, 1, [&](std::size_t row, std::size_t) {
     for (std::size_t column = 0; column < width; ++column) {
@@ -131,6 +145,7 @@ SampledImage GridFrames<Dim>::make_slice() {
       if (const auto solid = hybrid_ ? hybrid_->solid_at(x) : std::nullopt) {
         image.fields[1].components[0][i] = solids_->particles.column(Field::pressure)[*solid];
         if (damage) image.fields[2].components[0][i] = solids_->particles.column(Field::damage)[*solid];
+        if (with_velocity) set_velocity(i, solids_->particles.vector(Field::velocity, *solid));
         continue;
       }
       const auto state = hybrid_ ? hybrid_->at(x) : grid_.at(x);
@@ -145,9 +160,23 @@ SampledImage GridFrames<Dim>::make_slice() {
       image.fields[0].components[0][i] = state->density;
       image.fields[1].components[0][i] = state->pressure;
       if (!damage) image.fields[2].components[0][i] = state->velocity.norm() / state->sound_speed;
+      if (with_velocity) set_velocity(i, state->velocity);
     }
   });
   return image;
+}
+
+template <int Dim>
+Signs GridFrames<Dim>::signs(const Simulation& sim, bool fragments_too) const {
+  Signs signs = Frames::signs(sim, fragments_too);
+  for (const Quantity& q : quantities(sim))
+    if (q.name == "max pressure") signs.pressure = std::get<double>(q.value);
+  if (fragments_ && fragments_too) {
+    const std::size_t target = target_body(solids_->scene, solids_->outset.bodies);
+    signs.fragments = static_cast<double>(fragments_->fragments.size());
+    signs.largest_fragment = fragments_->largest_mass(target) / solids_->outset.bodies[target].mass;
+  }
+  return signs;
 }
 
 template <int Dim>
@@ -155,7 +184,7 @@ std::vector<Channel> GridFrames<Dim>::make_channels(Simulation& sim) {
   std::vector<Channel> made;
   if (reads("slice"))
     sim.timers.time("in situ: slice", [&] {
-      slice_ = make_slice();
+      slice_ = sample(true);
       made.push_back(slice_channel(slice_, Dim, view_.center[1]));
     });
   if (solids_ && reads("particles")) made.push_back(channels_.particles(solids_->particles, fragments_));

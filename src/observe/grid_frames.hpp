@@ -19,6 +19,9 @@ class GridFrames final : public Frames {
   void look(Simulation& sim) override;
   std::vector<Channel> make_channels(Simulation& sim) override;
   SampledImage make_slice() override;
+  Signs signs(const Simulation& sim, bool fragments_too) const override;
+
+  SampledImage sample(bool with_velocity);
 
   const Grid<Dim>& grid_;
   const Hybrid<Dim>* hybrid_;  ///< that the grid is part of, or null

@@ -1,5 +1,7 @@
 #include "observe/particle_frames.hpp"
 
+#include <algorithm>
+
 #include "observe/field_styles.hpp"
 #include "observe/slice.hpp"
 #include "schemes/kernels.hpp"
@@ -21,6 +23,8 @@ template <int Dim>
 PipelineSettings pipeline_settings(const Sph<Dim>& sph) {
   const Scene& scene = sph.scene;
   PipelineSettings settings;
+  settings.channels = {"particles", "slice", "ellipsoids"};
+  if (scene.fragments.enabled) settings.channels.push_back("fragments");
   settings.particle_radius = 0.6 * scene.spacing;
   settings.nodes_per_h = scene.numerics.nodes_per_h;
   settings.radius_per_smoothing_length = 0.6 / settings.nodes_per_h;
@@ -73,7 +77,7 @@ void ParticleFrames<Dim>::look(Simulation& sim) {
   if (!sim.scene.fragments.enabled) return;
   sim.timers.time("in situ: fragment search", [&] {
     fragments_ = tracker_.update(fragment_input(sph_), sph_.scene.fragments);
-    if (on_schedule(sim.clock.time)) remember_numbers();
+    if (on_schedule()) remember_numbers();
   });
 }
 
@@ -103,14 +107,48 @@ std::vector<Channel> ParticleFrames<Dim>::make_channels(Simulation& sim) {
   return made;
 }
 
+/// Largest change of a body's momentum since the start, over its mass times the largest speed of the start.
+template <int Dim>
+double momentum_change(const Sph<Dim>& sph) {
+  const Particles<Dim>& p = sph.particles;
+  const auto mass = p.column(Field::mass);
+  const auto body = p.label(Label::body);
+  std::vector<Vec<Dim>> momentum(sph.outset.bodies.size(), Vec<Dim>::Zero());
+  for (std::size_t i = 0; i < p.size(); ++i)
+    momentum[static_cast<std::size_t>(body[i])] += mass[i] * p.vector(Field::velocity, i);
+  double most = 0;
+  for (std::size_t b = 0; b < momentum.size(); ++b) {
+    const BodyAtOutset& start = sph.outset.bodies[b];
+    if (sph.scene.bodies[b].driven || !(start.mass > 0)) continue;
+    const Vec<Dim> before = start.mass * start.velocity.template head<Dim>();
+    most = std::max(most, (momentum[b] - before).norm() / (start.mass * sph.outset.speed));
+  }
+  return most;
+}
+
+template <int Dim>
+Signs ParticleFrames<Dim>::signs(const Simulation& sim, bool fragments_too) const {
+  Signs signs = Frames::signs(sim, fragments_too);
+  signs.momentum_change = momentum_change(sph_);
+  signs.pressure = std::ranges::max(sph_.particles.column(Field::pressure));
+  signs.noteworthy_pressure = 0.1 * sph_.outset.pressure;
+  if (fragments_ && fragments_too) {
+    const std::size_t target = target_body(sph_.scene, sph_.outset.bodies);
+    signs.fragments = static_cast<double>(fragments_->fragments.size());
+    signs.largest_fragment = fragments_->largest_mass(target) / sph_.outset.bodies[target].mass;
+  }
+  return signs;
+}
+
 template <int Dim>
 SampledImage ParticleFrames<Dim>::make_slice() {
-  return ejecta::make_slice(sph_.particles, sph_.scene.numerics.kernel, slice_grid_, view_.center[1]);
+  return ejecta::make_slice(sph_.particles, slice_fields(sph_.particles), sph_.scene.numerics.kernel, slice_grid_,
+                            view_.center[1]);
 }
 
 template <int Dim>
 void ParticleFrames<Dim>::keep(bool last) {
-  compaction_.collect(sph_.particles, sph_.materials, !on_schedule(sph_.clock.time));
+  compaction_.collect(sph_.particles, sph_.materials, !on_schedule());
   if (last) outputs_.write("figures", Outputs::Loss::until_next, [&] { compaction_.write(folder_, sph_.materials); });
 }
 

@@ -27,6 +27,7 @@ class ParticleFrames final : public Frames {
   std::vector<Channel> make_channels(Simulation& sim) override;
   SampledImage make_slice() override;
   void keep(bool last) override;
+  Signs signs(const Simulation& sim, bool fragments_too) const override;
 
   const Sph<Dim>& sph_;
   FragmentTracker tracker_;

@@ -1,6 +1,33 @@
 #include "observe/schedule.hpp"
 
+#include <cmath>
+
 namespace ejecta {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// A step that was to end at a time may miss it by so much of it.
+constexpr double rounding = 1e-11;
+
+std::vector<double> frame_times(const Scene& scene) {
+  const InSitu& insitu = scene.insitu;
+  if (!insitu.times.list.empty()) {
+    std::vector<double> times = insitu.times.list;
+    times.push_back(0);
+    std::ranges::sort(times);
+    return times;
+  }
+  std::vector<double> times;
+  for (int k = 0; k < insitu.frames; ++k) {
+    const double share = static_cast<double>(k) / (insitu.frames - 1);
+    times.push_back(scene.time_end * (insitu.times.dense_early ? share * share : share));
+  }
+  return times;
+}
+
+}  // namespace
 
 RowTimes::RowTimes(double interval, const std::vector<double>& times, const std::optional<Clock>& resume_at)
     : interval_(interval), times_(times) {
@@ -21,44 +48,100 @@ double row_interval(const Scene& scene) {
   return is_set(scene.output.history_interval) ? scene.output.history_interval : scene.time_end / 200;
 }
 
-bool FrameSchedule::take(std::int64_t step, double time, bool last) {
-  const bool always = times_.pass(time) || last || asked_, due = time >= next_ - 1e-9 * interval_;
-  if ((!due && !always) || step == last_drawn_) return false;
+Trigger::Trigger(std::vector<double> times, std::string reason) : times_(std::move(times)), reason_(std::move(reason)) {
+  std::ranges::sort(times_);
+}
+
+Trigger::Trigger(const Every& every, std::string reason, double start)
+    : every_(every), reason_(std::move(reason)), start_(start) {}
+
+double Trigger::time_of(std::int64_t k) const {
+  if (is_set(every_.time)) return start_ + static_cast<double>(k) * every_.time;
+  return k < static_cast<std::int64_t>(times_.size()) ? times_[static_cast<std::size_t>(k)] : infinity;
+}
+
+double Trigger::next() const { return time_of(passed_); }
+
+bool Trigger::take(const Moment& now) {
+  if (every_.steps > 0) return now.step % every_.steps == 0;
+  if (is_set(every_.wall)) {
+    if (now.wall < next_wall_) return false;
+    next_wall_ = now.wall + every_.wall;
+    return true;
+  }
+  const std::int64_t before = passed_;
+  const double reached = now.time * (1 + rounding);
+  if (is_set(every_.time) && reached >= start_) passed_ = std::max(passed_, static_cast<std::int64_t>((reached - start_) / every_.time) + 1);
+  while (time_of(passed_) <= reached) ++passed_;
+  return passed_ > before;
+}
+
+FrameSchedule::FrameSchedule(const Scene& scene)
+    : listed_(!scene.insitu.times.list.empty()), interval_(scene.time_end / (scene.insitu.frames - 1)) {
+  frames_.emplace_back(frame_times(scene), listed_ ? "insitu.times" : "frame");
+  if (!scene.output.times.empty()) always_.emplace_back(scene.output.times, "output.times");
+  for (const std::string& text : scene.insitu.every) others_.emplace_back(parse_every(text), "every " + text);
+}
+
+double FrameSchedule::next() const {
+  double least = infinity;
+  for (const auto* triggers : {&frames_, &always_, &others_})
+    for (const Trigger& trigger : *triggers) least = std::min(least, trigger.next());
+  return least;
+}
+
+FrameSchedule::Due FrameSchedule::take(const Moment& now, bool last) {
+  Due due;
+  if (now.step == last_drawn_) return due;
+  const auto look = [&](std::vector<Trigger>& triggers, bool always) {
+    for (Trigger& trigger : triggers) {
+      if (!trigger.take(now)) continue;
+      due.always |= always;
+      due.scheduled = true;
+      if (due.reason.empty()) due.reason = trigger.reason();
+    }
+  };
+  look(always_, true);
+  look(loose_, true);
+  look(frames_, listed_);
+  look(others_, false);
+  due.always |= last || asked_;
+  if (due.reason.empty() && asked_) due.reason = "asked for";
+  if (due.reason.empty() && last) due.reason = end_of_run;
   asked_ = false;
-  while (next_ <= time * (1 + 1e-12)) next_ += interval_;
-  if (!always && ++passed_over_ < stride_) return false;
-  passed_over_ = 0;
-  last_drawn_ = step;
-  return true;
+  if (!due.reason.empty()) last_drawn_ = now.step;
+  return due;
+}
+
+void FrameSchedule::resume(const Moment& now) {
+  take(now, false);
+  last_drawn_ = -1;
 }
 
 void FrameSchedule::change(double time, double interval) {
   interval_ = interval;
-  next_ = time + interval;
-  stride_ = 1;
+  listed_ = false;
+  frames_ = {Trigger(Every{.time = interval}, "frame", time + interval)};
 }
 
-bool FrameSchedule::falls_on(double time) const {
-  return times_.hold(time) || std::abs(std::remainder(time, interval_)) <= 1e-9 * interval_;
+void FrameSchedule::add(std::vector<double> times, std::string reason) {
+  loose_.emplace_back(std::move(times), std::move(reason));
 }
 
-void FrameSchedule::resume(double time) {
-  while (next_ <= time) next_ += interval_;
-  times_.pass(time);
+bool FrameGovernor::affords(double insitu_seconds, double step_seconds) const {
+  if (!begun_ || max_share_ >= 1) return true;
+  const double insitu = insitu_seconds - insitu_before_ + cost_, steps = step_seconds - steps_before_;
+  return insitu <= max_share_ * (insitu + steps);
 }
 
-std::optional<double> FrameGovernor::excess(double insitu_seconds, double step_seconds) {
-  constexpr int frames_before_judging = 5;
-  if (frames_++ == 0) {
-    insitu_before_ = insitu_seconds;
-    steps_before_ = step_seconds;
-    return {};
+void FrameGovernor::drawn(double insitu_before, double insitu_after, double step_seconds) {
+  if (begun_) {
+    cost_ = insitu_after - insitu_before;
+    return;
   }
-  const double insitu = insitu_seconds - insitu_before_, steps = step_seconds - steps_before_;
-  const double share = insitu / (insitu + steps);
-  if (frames_ <= frames_before_judging || share <= max_share_) return {};
-  frames_ = 0;
-  return share;
+  begun_ = true;
+  insitu_before_ = insitu_after;
+  steps_before_ = step_seconds;
 }
 
 }  // namespace ejecta

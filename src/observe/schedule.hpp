@@ -4,11 +4,12 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "model/clock.hpp"
+#include "scene/every.hpp"
 #include "scene/scene.hpp"
 
 namespace ejecta {
@@ -56,52 +57,89 @@ class RowTimes {
 /// output.history_interval or its default [s].
 double row_interval(const Scene& scene);
 
-/// Times of frames: equally spaced, first and last included. Steps end at all of them, drawn or passed over, so that
-/// the result of a run does not depend on the speed of the machine.
-class FrameSchedule {
- public:
-  /// `frames` of at least 2 in [0, time_end] [s], and one at each of the times [s] that are given, which is always drawn.
-  FrameSchedule(double time_end, int frames, const std::vector<double>& times = {})
-      : interval_(time_end / (frames - 1)), times_(times) {}
-
-  /// Time of the next frame, drawn or passed over [s].
-  double next() const { return std::min(next_, times_.next()); }
-  /// Is a frame to be drawn now, at the end of this step? `last`: of the run, which is always drawn. No step is drawn
-  /// twice.
-  bool take(std::int64_t step, double time, bool last);
-  /// The end of this step is drawn, whatever its time.
-  void ask() { asked_ = true; }
-  /// From now on a frame every `interval`, and the first so long after `time` [s].
-  void change(double time, double interval);
-  /// From now on half as many frames are drawn.
-  void thin_out() { stride_ *= 2; }
-  /// Whether a frame belongs at this time [s], not counting the last of the run.
-  bool falls_on(double time) const;
-  /// The next frame is the first one later than `time` [s].
-  void resume(double time);
-
- private:
-  double interval_, next_ = 0;        // s
-  OutputTimes times_;
-  int stride_ = 1, passed_over_ = 0;  ///< every stride-th frame is drawn
-  bool asked_ = false;
-  std::int64_t last_drawn_ = -1;      ///< step
+/// Where a run is, for whoever waits for something.
+struct Moment {
+  std::int64_t step = 0;
+  double time = 0, wall = 0;  ///< s
 };
 
-/// Watches over the share of in-situ work in the wall time.
+/// Says when something is due, and why: at given times, or every so much time, so many steps or so much wall time from
+/// the start on.
+class Trigger {
+ public:
+  Trigger(std::vector<double> times, std::string reason);
+  /// From the time `start` [s] on.
+  Trigger(const Every& every, std::string reason, double start = 0);
+
+  /// Time at which steps are to end because of it [s]; infinity if there is none. It does not depend on the speed of
+  /// the machine, nor does the result of a run.
+  double next() const;
+  /// Whether it has become due since the last call.
+  bool take(const Moment& now);
+  /// What has been due until now is past.
+  void resume(const Moment& now) { take(now); }
+  const std::string& reason() const { return reason_; }
+
+ private:
+  std::vector<double> times_;
+  Every every_;
+  std::string reason_;
+  double start_ = 0;  // s
+  std::int64_t passed_ = 0;  ///< number of times that are past
+  double next_wall_ = 0;     // s
+  double time_of(std::int64_t k) const;
+};
+
+/// Why a frame is drawn that only the end of the run, or of this part of it, has brought.
+inline constexpr const char* end_of_run = "end";
+
+/// The frames of a scene: insitu.frames or insitu.times, insitu.every, output.times, and the last step of the run.
+class FrameSchedule {
+ public:
+  explicit FrameSchedule(const Scene& scene);
+
+  double next() const;
+  struct Due {
+    std::string reason;   ///< empty: there is no frame
+    bool always = false;     ///< whatever it costs
+    bool scheduled = false;  ///< also where nobody stops the run or asks for a frame
+  };
+  /// `last`: of the run. No step is drawn twice.
+  Due take(const Moment& now, bool last);
+  /// The next frame is the first one later than now.
+  void resume(const Moment& now);
+  /// The end of this step is drawn, whatever its time.
+  void ask() { asked_ = true; }
+  /// In place of insitu.frames or insitu.times a frame every `interval` from now on, the first so long after `time` [s].
+  void change(double time, double interval);
+  /// More frames, which are drawn at the first step after each of these times [s]: steps do not end there.
+  void add(std::vector<double> times, std::string reason);
+  /// Mean time between two frames [s].
+  double interval() const { return interval_; }
+
+ private:
+  std::vector<Trigger> frames_;  ///< one: insitu.frames or insitu.times
+  std::vector<Trigger> always_, others_, loose_;
+  bool listed_, asked_ = false;
+  double interval_;
+  std::int64_t last_drawn_ = -1;  ///< step
+};
+
+/// Keeps in-situ work to its share of the wall time: a frame has to be earned before it is drawn.
 class FrameGovernor {
  public:
   explicit FrameGovernor(double max_share) : max_share_(max_share) {}
 
-  /// To be called after every frame with the wall times so far [s]. Returns the share of in-situ work if it is more
-  /// than allowed, and begins anew. The first frame pays for starting the renderer: what comes after it is judged, once
-  /// there are a few frames.
-  std::optional<double> excess(double insitu_seconds, double step_seconds);
+  /// With the wall times so far [s]: whether a frame that costs as much as the one before keeps within the share.
+  bool affords(double insitu_seconds, double step_seconds) const;
+  /// To be told of every frame. The first one pays for starting the renderer, and is not counted.
+  void drawn(double insitu_before, double insitu_after, double step_seconds);
 
  private:
   double max_share_;
-  int frames_ = 0;
-  double insitu_before_ = 0, steps_before_ = 0;  ///< wall time of either at the first frame [s]
+  bool begun_ = false;
+  double insitu_before_ = 0, steps_before_ = 0;  ///< wall time of either after the first frame [s]
+  double cost_ = 0;                              ///< of the frame before [s]
 };
 
 }  // namespace ejecta

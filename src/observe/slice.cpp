@@ -25,10 +25,11 @@ std::vector<Field> slice_fields(const Particles<Dim>& p) {
 }
 
 template <int Dim>
-SampledImage make_slice(const Particles<Dim>& p, Kernel kernel, const PixelGrid& grid, double plane_y) {
-  std::vector<FieldView> fields;
-  for (Field f : slice_fields(p)) fields.push_back(field_view(p, f));
-  return sample_slice(particle_view(p), fields, kernel_shape<Dim>(kernel), grid, plane_y);
+SampledImage make_slice(const Particles<Dim>& p, std::span<const Field> fields, Kernel kernel, const PixelGrid& grid,
+                        double plane_y) {
+  std::vector<FieldView> views;
+  for (Field f : fields) views.push_back(field_view(p, f));
+  return sample_slice(particle_view(p), views, kernel_shape<Dim>(kernel), grid, plane_y);
 }
 
 template <int Dim>
@@ -38,8 +39,8 @@ SampledImage make_column_density(const Particles<Dim>& p, Kernel kernel, const P
 
 template std::vector<Field> slice_fields<2>(const Particles<2>&);
 template std::vector<Field> slice_fields<3>(const Particles<3>&);
-template SampledImage make_slice<2>(const Particles<2>&, Kernel, const PixelGrid&, double);
-template SampledImage make_slice<3>(const Particles<3>&, Kernel, const PixelGrid&, double);
+template SampledImage make_slice<2>(const Particles<2>&, std::span<const Field>, Kernel, const PixelGrid&, double);
+template SampledImage make_slice<3>(const Particles<3>&, std::span<const Field>, Kernel, const PixelGrid&, double);
 template SampledImage make_column_density<2>(const Particles<2>&, Kernel, const PixelGrid&);
 template SampledImage make_column_density<3>(const Particles<3>&, Kernel, const PixelGrid&);
 

@@ -1,5 +1,6 @@
 #pragma once
 /// Pictures of the particles by the true kernel.
+#include <span>
 #include <vector>
 
 #include "particles/particles.hpp"
@@ -12,9 +13,10 @@ namespace ejecta {
 template <int Dim>
 std::vector<Field> slice_fields(const Particles<Dim>& particles);
 
-/// The slice fields in the plane y = plane_y [m], of the whole domain in 2D.
+/// Fields in the plane y = plane_y [m], of the whole domain in 2D.
 template <int Dim>
-SampledImage make_slice(const Particles<Dim>& particles, Kernel kernel, const PixelGrid& grid, double plane_y);
+SampledImage make_slice(const Particles<Dim>& particles, std::span<const Field> fields, Kernel kernel,
+                        const PixelGrid& grid, double plane_y);
 
 /// Mass per area seen along y.
 template <int Dim>

@@ -51,6 +51,8 @@ void Status::gather(const Simulation& sim) {
   status_.views = read_views(folder_);
   status_.warnings = frames_.warnings();
   status_.warnings.insert(status_.warnings.end(), outputs_.warnings().begin(), outputs_.warnings().end());
+  status_.pipelines.clear();
+  for (const PipelineCount& p : frames_.pipelines()) status_.pipelines.push_back({p.name, p.frames, p.failures});
 }
 
 void Status::observe(Simulation& sim, bool) {

@@ -100,6 +100,10 @@ Summary summarise(const Simulation& sim, const Frames& frames, const FragmentCon
   if (kept(sim).angular_momentum) s.angular_momentum_error_rel = errors.angular_momentum;
   s.energy_error_rel = errors.energy;
   s.images = frames.images();
+  s.extracts = frames.extracts();
+  s.frames = frames.drawn();
+  s.frames_left_out = frames.left_out();
+  for (const PipelineCount& p : frames.pipelines()) s.pipelines.push_back({p.name, p.frames, p.failures});
   s.insitu_share = s.wall_s > 0 ? sim.insitu_seconds / s.wall_s : 0;
   s.insitu_bytes_written = folder_bytes(folder / "images");
   s.full_dump_bytes_avoided = static_cast<std::int64_t>(dump_bytes(sim) * frames.drawn());

@@ -156,6 +156,11 @@ std::vector<std::string> set_later_checkpoints_aside(const fs::path& folder, std
   return names;
 }
 
+CheckpointClock read_checkpoint_clock(const fs::path& file) {
+  const Hdf5File in(file, Hdf5File::Mode::read);
+  return {in.real_attribute("time"), in.integer_attribute("step")};
+}
+
 Checkpoint read_checkpoint(const fs::path& file) {
   check_seal(file);
   const Hdf5File in(file, Hdf5File::Mode::read);

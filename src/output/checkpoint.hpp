@@ -57,6 +57,13 @@ std::filesystem::path write_rotating_checkpoint(const std::filesystem::path& fol
 /// The checkpoint of the highest step in the folder, if there is one.
 std::optional<std::filesystem::path> latest_checkpoint(const std::filesystem::path& folder);
 
+/// Where a checkpoint or snapshot stands, without reading the rest of it. Throws InputError as read_checkpoint() does.
+struct CheckpointClock {
+  double time = 0;  ///< s
+  std::int64_t step = 0;
+};
+CheckpointClock read_checkpoint_clock(const std::filesystem::path& file);
+
 /// Throws InputError if the file is missing, truncated, damaged, of another format or its columns differ in length.
 Checkpoint read_checkpoint(const std::filesystem::path& file);
 

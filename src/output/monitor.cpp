@@ -6,9 +6,10 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "output/atomic_file.hpp"
 #include "base/json.hpp"
 #include "base/si_prefixes.hpp"
+#include "output/atomic_file.hpp"
+#include "render/csv_table.hpp"
 
 namespace ejecta {
 
@@ -29,11 +30,26 @@ std::string series_json(const MonitorSeries& s) {
 
 std::string view_json(const MonitorView& view) {
   const auto frame = [](const MonitorFrame& f) {
-    return fmt::format("[{},{},{}]", to_json("../" + f.file), short_json(f.time), f.step);
+    return fmt::format("[{},{},{},{}]", to_json("../" + f.file), short_json(f.time), f.step, to_json(f.reason));
   };
   return fmt::format("{{\"name\":{},\"latest\":{},\"frames\":{}}}", to_json(view.name),
                      view.frames.empty() ? "null" : to_json("../" + view.frames.back().file),
                      json_list(view.frames, frame));
+}
+
+std::string pipeline_json(const MonitorPipeline& p) {
+  return fmt::format("{{\"name\":{},\"frames\":{},\"failures\":{}}}", to_json(p.name), p.frames, p.failures);
+}
+
+bool is_picture(const MonitorView& view) {
+  const std::filesystem::path file = view.frames.back().file;
+  return file.extension() == ".png" || file.extension() == ".jpg";
+}
+
+/// Files that are no pictures, as their name, how many there are, and the latest.
+std::string extract_json(const MonitorView& view) {
+  return fmt::format("{{\"name\":{},\"files\":{},\"latest\":{}}}", to_json(view.name), view.frames.size(),
+                     to_json("../" + view.frames.back().file));
 }
 
 /// Points (m/M, N) where N fragments are at least as heavy as m; of many, ranks that are evenly spaced on a log axis.
@@ -63,14 +79,17 @@ void MonitorStatus::record(std::string_view name, std::string_view unit, double 
 
 std::vector<MonitorView> read_views(const std::filesystem::path& run_folder) {
   std::vector<MonitorView> views;
-  std::ifstream in(run_folder / "images" / "data.csv");
-  std::string time, step, name, file;
-  std::getline(in, file);  // the header
-  while (std::getline(in, time, ',') && std::getline(in, step, ',') && std::getline(in, name, ',') &&
-         std::getline(in, file)) {
-    auto view = std::find_if(views.begin(), views.end(), [&](const MonitorView& v) { return v.name == name; });
-    if (view == views.end()) view = views.insert(view, MonitorView{name, {}});
-    view->frames.push_back({"images/" + file, std::strtod(time.c_str(), nullptr), std::atoll(step.c_str())});
+  const std::filesystem::path file = run_folder / "images" / "data.csv";
+  if (!std::filesystem::exists(file)) return views;
+  const CsvTable table = read_csv(file);
+  const std::size_t time = table.find("time"), step = table.find("step"), name = table.find("view"),
+                    path = table.find("FILE"), reason = table.find("reason");
+  if (std::max({time, step, name, path}) == CsvTable::npos) return views;
+  for (const std::vector<std::string>& row : table.rows) {
+    auto view = std::ranges::find(views, row[name], &MonitorView::name);
+    if (view == views.end()) view = views.insert(view, MonitorView{row[name], {}});
+    view->frames.push_back({"images/" + row[path], std::strtod(row[time].c_str(), nullptr),
+                            std::atoll(row[step].c_str()), reason == CsvTable::npos ? "" : row[reason]});
   }
   return views;
 }
@@ -118,7 +137,12 @@ std::string monitor_json(const MonitorStatus& s, std::int64_t updated) {
   add("angular_momentum_error_rel", to_json(s.angular_momentum_error));
   add("warnings", json_list(s.warnings, [](const std::string& w) { return to_json(w); }));
   add("control", json_list(s.control));
-  add("views", json_list(s.views, view_json));
+  std::vector<MonitorView> pictures, extracts;
+  for (const MonitorView& view : s.views)
+    (view.frames.empty() || is_picture(view) ? pictures : extracts).push_back(view);
+  add("views", json_list(pictures, view_json));
+  add("extracts", json_list(extracts, extract_json));
+  add("pipelines", json_list(s.pipelines, pipeline_json));
   add("history", json_list(s.history, series_json));
   add("fragment_target", to_json(s.fragment_target));
   add("smallest_fragment", to_json(s.smallest_fragment));

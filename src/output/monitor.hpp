@@ -23,9 +23,16 @@ struct MonitorFrame {
   std::string file;  ///< relative to the run folder, such as images/slice_000120.png
   double time = 0;   ///< s
   std::int64_t step = 0;
+  std::string reason;  ///< why it was drawn
 };
 
-/// One view of the in-situ pipelines with all its images so far, the latest last.
+/// A Catalyst script: how often it was run, and how often it failed.
+struct MonitorPipeline {
+  std::string name;
+  std::int64_t frames = 0, failures = 0;
+};
+
+/// One view of the in-situ pipelines with all its images so far, the latest last; or other files that they write.
 struct MonitorView {
   std::string name;
   std::vector<MonitorFrame> frames;
@@ -47,6 +54,7 @@ struct MonitorStatus {
   std::optional<double> energy_error;            ///< relative, 1
   std::optional<double> angular_momentum_error;  ///< relative, 1
   std::vector<MonitorView> views;                ///< see read_views()
+  std::vector<MonitorPipeline> pipelines;        ///< none without Catalyst
   std::vector<MonitorSeries> history;            ///< whole runs are welcome: the page gets at most 300 points of each
   std::string fragment_target;                   ///< name of the body that the next two refer to
   std::vector<double> fragment_masses;      ///< its matter in a fragment / its mass, heaviest first, without the dust

@@ -21,6 +21,14 @@ std::string bodies_json(const std::vector<BodySummary>& bodies) {
   return text.empty() ? "{}" : "{" + text + "\n  }";
 }
 
+std::string pipelines_json(const std::vector<PipelineSummary>& pipelines) {
+  std::string text;
+  for (const PipelineSummary& p : pipelines)
+    text += fmt::format("{}    {}: {{\"frames\": {}, \"failures\": {}}}", text.empty() ? "\n" : ",\n", to_json(p.name),
+                        p.frames, p.failures);
+  return text.empty() ? "{}" : "{" + text + "\n  }";
+}
+
 std::string quantities_json(const Quantities& quantities) {
   std::string text;
   for (const Quantity& q : quantities)
@@ -64,6 +72,10 @@ std::string summary_json(const Summary& s) {
   add("shape_limited_change", s.shape_limited_change);
   add("shape_largest_aspect", s.shape_largest_aspect);
   add("images", s.images);
+  add("extracts", s.extracts);
+  add("frames", s.frames);
+  add("frames_left_out", s.frames_left_out);
+  add_text("pipelines", pipelines_json(s.pipelines));
   add("insitu_share", s.insitu_share);
   add("insitu_bytes_written", s.insitu_bytes_written);
   add("full_dump_bytes_avoided", s.full_dump_bytes_avoided);

@@ -20,6 +20,12 @@ struct BodySummary {
       pressure_peak_median;  ///< Pa; half of its mass has seen more than the median
 };
 
+/// How often a Catalyst script was run, and how often it failed.
+struct PipelineSummary {
+  std::string name;
+  std::int64_t frames = 0, failures = 0;
+};
+
 /// Values that do not apply stay empty and are written as null, like numbers that are not finite.
 struct Summary {
   std::string scene;
@@ -38,7 +44,9 @@ struct Summary {
   std::optional<double> angular_momentum_error_rel;  ///< not with faces of either kind
   /// ASPH: particles times votes on the shape of H, and in how many of them a limit acted.
   std::optional<std::int64_t> shape_votes, shape_few_neighbours, shape_limited_change, shape_largest_aspect;
-  std::optional<std::int64_t> images;
+  std::optional<std::int64_t> images, extracts;         ///< pictures, and other files of pipelines
+  std::optional<std::int64_t> frames, frames_left_out;  ///< drawn, and passed over to hold insitu.max_share
+  std::vector<PipelineSummary> pipelines;               ///< an object by name
   std::optional<double> insitu_share;
   std::optional<std::int64_t> insitu_bytes_written, full_dump_bytes_avoided;
   std::optional<std::string> fragment_target;            ///< the body struck, or named by fragments.target

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "base/errors.hpp"
+#include "scene/every.hpp"
 #include "scene/formula.hpp"
 #include "scene/names.hpp"
 #include "scene/scene_reader.hpp"
@@ -132,6 +133,31 @@ void check_boundary(const Scene& scene, const Report& report) {
   }
 }
 
+/// When something is to be drawn.
+void check_triggers(const Scene& scene, const Report& report) {
+  const auto check_every = [&](const std::string& path, const std::string& text) {
+    try {
+      parse_every(text);
+    } catch (const InputError& error) {
+      report(path, error.what());
+    }
+  };
+  for (const std::string& text : scene.insitu.every) check_every("insitu.every", text);
+  for (std::size_t k = 0; k < scene.insitu.pipelines.size(); ++k)
+    if (const std::string& text = scene.insitu.pipelines[k].every; !text.empty())
+      check_every(element_path("insitu.pipelines", k) + ".every", text);
+  for (const std::string& word : scene.insitu.events) {
+    const auto known = std::ranges::find(event_words, word);
+    if (known == event_words.end())
+      report("insitu.events",
+             fmt::format("expected some of \"{}\", got \"{}\"", fmt::join(event_words, "\", \""), word));
+    else if (word == event_words[0] && scene.numerics.on_grid())
+      report("insitu.events", fmt::format("\"{}\" needs particles alone, without a grid", word));
+    else if (word.find("fragment") != std::string::npos && !scene.fragments.enabled)
+      report("insitu.events", fmt::format("\"{}\" needs fragments.enabled = true", word));
+  }
+}
+
 /// What Riemann problems between particles cannot do.
 void check_godunov(const Numerics& n, const Report& report) {
   if (!n.godunov()) return;
@@ -151,6 +177,7 @@ void check_godunov(const Numerics& n, const Report& report) {
 
 void check_scene(const Scene& scene, const Document& document, Problems& problems) {
   const Report report{document, problems};
+  check_triggers(scene, report);
   constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
   const auto check_name = [&](const std::string& path, const std::string& name) {
     if (!name.empty() && name.find_first_not_of(plain) == std::string::npos) return;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "scene/every.hpp"
+
 namespace ejecta {
 
 namespace {
@@ -131,15 +133,28 @@ void describe(Describer& d, Contact& c) {
   d.number("friction", c.friction, "1", non_negative, "coefficient, between bodies and on walls; 0: they slide");
 }
 
+void describe(Describer& d, Pipeline& p) {
+  d.text("script", p.script, "beside the scene or shipped (ellipses.py, damage.py); \"default\": the default ones")
+      .required = true;
+  d.texts("args", p.args, "what catalyst.get_args() gives to the script");
+  d.text("every", p.every,
+         "when it is asked, as in insitu.every; else with the frames, or when its own triggers say so");
+}
+
 void describe(Describer& d, InSitu& i) {
   d.flag("enabled", i.enabled, "images and statistics while the run goes on");
   d.integer("frames", i.frames, at_least(2), "equally spaced in simulated time, first and last included");
-  d.texts("pipelines", i.pipelines,
-          "Catalyst scripts beside the scene or shipped (ellipses.py, damage.py), and \"default\"; none: default");
+  d.frame_times("times", i.times,
+                "of the frames, in place of equal spacing; \"dense early\": at the squares of k / (frames - 1)");
+  d.texts("every", i.every,
+          "more frames: every so much simulated time (\"2 us\"), steps (\"100 steps\") or wall time (\"30 s wall\")");
+  d.texts("events", i.events, fmt::format("more frames when something happens: {}", fmt::join(event_words, ", ")));
+  d.integer("burst", i.burst, non_negative, "frames after that of an event, ten times as dense as the others");
   d.flag("column_density", i.column_density, "also draw the mass per area seen along y (view `column`)");
-  d.choice("on_error", i.on_error, "what a failing pipeline does to the run");
+  d.choice("on_error", i.on_error,
+           "what becomes of a pipeline that fails after its first frame: it is tried again, left out, or ends the run");
   d.number("max_share", i.max_share, "1", {.min = 0, .max = 1, .open_min = true},
-           "frames are thinned out when they take more than this share of the wall time");
+           "frames are left out where they would take more than this share of the wall time; 1: never");
   d.integer("image_width", i.image_width, between(64, 8192), "pixels");
   d.integer("image_height", i.image_height, between(64, 8192), "pixels");
   d.triple("view_center", i.view_center, "m", "middle of the images; else the centre of the bodies at rest");
@@ -148,6 +163,10 @@ void describe(Describer& d, InSitu& i) {
         [&](const std::string& field, ColourRange& r) {
           d.range(field, r, "same from the first frame to the last").required = true;
         });
+  d.list("pipelines", i.pipelines, false,
+         "Catalyst scripts, also as a list: pipelines = [\"default\", \"x.py\", {script = \"y.py\", every = \"2 "
+         "us\"}]; none: default",
+         [&](Pipeline& pipeline) { describe(d, pipeline); });
 }
 
 void describe(Describer& d, FragmentSettings& f) {

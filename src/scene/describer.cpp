@@ -77,6 +77,9 @@ Setting& Describer::numbers(std::string key, std::vector<double>& values, std::s
                             std::string doc) {
   return add(std::move(key), &values, std::move(unit), limits, std::move(doc));
 }
+Setting& Describer::frame_times(std::string key, FrameTimes& value, std::string doc) {
+  return add(std::move(key), &value, "s", non_negative, std::move(doc));
+}
 Setting& Describer::chosen(std::string key, std::string word, std::vector<std::string> words, std::string doc) {
   Choice choice{std::move(words), [word = std::move(word)] { return word; }, [](std::size_t) {}};
   return add(std::move(key), std::move(choice), "", any_number, std::move(doc));

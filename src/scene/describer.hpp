@@ -40,9 +40,9 @@ struct Choice {
 };
 
 /// Where a setting lives.
-using Target =
-    std::variant<double*, Triple*, ColourRange*, bool*, int*, std::int64_t*, std::uint64_t*, std::optional<int>*,
-                 std::optional<std::int64_t>*, std::string*, std::vector<std::string>*, std::vector<double>*, Choice>;
+using Target = std::variant<double*, Triple*, ColourRange*, bool*, int*, std::int64_t*, std::uint64_t*,
+                            std::optional<int>*, std::optional<std::int64_t>*, std::string*, std::vector<std::string>*,
+                            std::vector<double>*, FrameTimes*, Choice>;
 
 struct Setting {
   std::string section;  ///< "numerics", "bodies[1]"; empty at the top of a file
@@ -109,6 +109,7 @@ class Describer {
   Setting& text(std::string key, std::string& value, std::string doc);
   Setting& numbers(std::string key, std::vector<double>& values, std::string unit, Limits limits, std::string doc);
   Setting& texts(std::string key, std::vector<std::string>& values, std::string doc);
+  Setting& frame_times(std::string key, FrameTimes& value, std::string doc);
   /// A word on which the rest of the description depends: it has been read before, and is only echoed and documented.
   Setting& chosen(std::string key, std::string word, std::vector<std::string> words, std::string doc);
 

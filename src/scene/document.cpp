@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -18,12 +19,19 @@ std::string element_path(const std::string& list, std::size_t k) { return fmt::f
 
 namespace {
 
-/// Nothing for what settings never hold: dates and times, and tables inside lists of values.
+/// Nothing for what settings never hold: dates and times.
 bool read_literal(const toml::node& node, Literal& literal) {
   if (const auto* flag = node.as_boolean()) return literal.value = flag->get(), true;
   if (const auto* integer = node.as_integer()) return literal.value = integer->get(), true;
   if (const auto* number = node.as_floating_point()) return literal.value = number->get(), true;
   if (const auto* text = node.as_string()) return literal.value = text->get(), true;
+  if (const toml::table* table = node.as_table()) {
+    LiteralTable entries;
+    for (const auto& [entry, inner] : *table)
+      if (!read_literal(inner, entries.emplace_back(LiteralEntry{std::string(entry.str()), {}}).value)) return false;
+    literal.value = std::move(entries);
+    return true;
+  }
   const toml::array* array = node.as_array();
   if (!array) return false;
   LiteralList list(array->size());
@@ -82,8 +90,8 @@ void flatten(const toml::table& table, const std::string& path, Document& docume
       if (read_literal(node, literal))
         document.items[here] = {literal, origin};
       else
-        problems.push_back(fmt::format(
-            "{}: {}: expected a text, number, true, false or a list of them, got a date or table", origin.text, here));
+        problems.push_back(fmt::format("{}: {}: expected a text, number, true, false or a list of them, got a date",
+                                       origin.text, here));
     }
   }
 }
@@ -140,6 +148,12 @@ std::string to_text(const Literal& literal) {
       std::string text;
       for (const Literal& element : list) text += (text.empty() ? "" : ", ") + to_text(element);
       return "[" + text + "]";
+    }
+    std::string operator()(const LiteralTable& table) const {
+      std::string text;
+      for (const LiteralEntry& entry : table)
+        text += (text.empty() ? "" : ", ") + entry.key + " = " + to_text(entry.value);
+      return "{" + text + "}";
     }
   };
   return std::visit(Visitor{}, literal.value);
@@ -209,6 +223,27 @@ std::string with_names(const Document& document, const std::string& path) {
   return text;
 }
 
+void expand_short_list(Document& document, const std::string& path, const std::string& key) {
+  const auto item = document.items.find(path);
+  const auto* written = item == document.items.end() ? nullptr : std::get_if<LiteralList>(&item->second.literal.value);
+  if (!written || !std::ranges::all_of(*written, [](const Literal& element) {
+        return std::holds_alternative<std::string>(element.value) ||
+               std::holds_alternative<LiteralTable>(element.value);
+      }))
+    return;
+  const LiteralList list = *written;
+  const Origin origin = item->second.origin;
+  document.items.erase(item);
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    const std::string element = element_path(path, k);
+    document.tables[element] = origin;
+    if (const auto* table = std::get_if<LiteralTable>(&list[k].value))
+      for (const LiteralEntry& entry : *table) document.items[element + "." + entry.key] = {entry.value, origin};
+    else
+      document.items[element + "." + key] = {list[k], origin};
+  }
+}
+
 Document parse_document(const std::string& text, const std::string& name) {
   Document document;
   document.file = name;
@@ -238,6 +273,9 @@ void apply_override(Document& document, const std::string& assignment) {
     throw InputError(fmt::format("--set {}: expected key=value such as time.end=20us", assignment));
   const std::string key = assignment.substr(0, equals);
   const std::string path = with_numbers(document, key);
+  const auto element_of_list = [&](const auto& entry) { return entry.first.starts_with(path + "["); };
+  std::erase_if(document.items, element_of_list);  // a list given anew replaces the one in the file
+  std::erase_if(document.tables, element_of_list);
   document.items[path] = {parse_literal(assignment.substr(equals + 1)),
                           {"--set " + key, std::numeric_limits<int>::max()}};
 }

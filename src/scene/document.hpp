@@ -11,11 +11,17 @@
 namespace ejecta {
 
 struct Literal;
+struct LiteralEntry;
 using LiteralList = std::vector<Literal>;
+using LiteralTable = std::vector<LiteralEntry>;
 
-/// A value as written, before its meaning is known.
+/// A value as written, before its meaning is known. Tables come only within lists of other values.
 struct Literal {
-  std::variant<bool, std::int64_t, double, std::string, LiteralList> value;
+  std::variant<bool, std::int64_t, double, std::string, LiteralList, LiteralTable> value;
+};
+struct LiteralEntry {
+  std::string key;
+  Literal value;
 };
 
 /// The value as it would be written in TOML, for messages.
@@ -63,6 +69,10 @@ Document read_document(const std::string& path);
 
 /// The same from text; `name` stands for the file in messages.
 Document parse_document(const std::string& text, const std::string& name);
+
+/// A list of things may be written short: of ["a", {key = "b", more = 1}] a text stands for a table that holds it as
+/// `key`. Turns such a value into tables. Adds nothing where something else is written, which stays.
+void expand_short_list(Document& document, const std::string& path, const std::string& key);
 
 /// Applies "time.end=20us". The value needs no quotes. bodies.projectile.velocity finds the body by its name, and so in
 /// every list. Throws InputError if there is no key, no value or no such body.

@@ -27,7 +27,7 @@ constexpr auto enum_names(DistensionSolver) {
   return std::to_array<std::string_view>({"safe_newton", "bisection", "newton"});
 }
 constexpr auto enum_names(Lattice) { return std::to_array<std::string_view>({"cubic", "hexagonal", "glass"}); }
-constexpr auto enum_names(OnError) { return std::to_array<std::string_view>({"continue", "abort"}); }
+constexpr auto enum_names(OnError) { return std::to_array<std::string_view>({"warn", "disable", "abort"}); }
 constexpr auto enum_names(Switch) { return std::to_array<std::string_view>({"auto", "false", "true"}); }
 constexpr auto enum_names(FragmentLink) { return std::to_array<std::string_view>({"auto", "spacing", "support"}); }
 

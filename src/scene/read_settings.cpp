@@ -139,6 +139,15 @@ struct Assign {
     }
     *target = std::move(values);
   }
+  void operator()(FrameTimes* target) const {
+    FrameTimes times;
+    const auto* text = std::get_if<std::string>(&literal.value);
+    times.dense_early = text && *text == dense_early_word;
+    if (text && !times.dense_early)
+      refuse(fmt::format("\"{}\" or a list of times such as [\"1 us\", \"5 us\"]", dense_early_word), literal);
+    if (!text) (*this)(&times.list);
+    *target = std::move(times);
+  }
   void operator()(const Choice& choice) const {
     const auto* text = std::get_if<std::string>(&literal.value);
     const std::string flag = std::holds_alternative<bool>(literal.value) ? to_text(literal) : "";  // true, false, auto

@@ -20,7 +20,7 @@ namespace ejecta {
 enum class SchemeKind { sph, asph, fvm, gsph, agsph, hybrid };
 enum class DensityMethod { continuity, summation };
 enum class Lattice { cubic, hexagonal, glass };
-enum class OnError { continue_run, abort };
+enum class OnError { warn, disable, abort };
 enum class Switch { automatic, off, on };
 enum class FragmentLink { automatic, spacing, support };
 
@@ -103,18 +103,39 @@ struct ColourRange {
 /// Stands for the default set among insitu.pipelines.
 inline constexpr std::string_view default_pipelines_name = "default";
 
+/// Stands for frames dense at first as insitu.times.
+inline constexpr std::string_view dense_early_word = "dense early";
+
 /// What bodies and walls do where they touch.
 struct Contact {
   double friction = 0;  ///< coefficient
 };
 
+/// A Catalyst script, what it is told, and when it is asked.
+struct Pipeline {
+  std::string script;             ///< a path, or "default" for the default ones
+  std::vector<std::string> args;  ///< catalyst.get_args() of the script
+  std::string every;  ///< as parse_every() reads it; empty: with the frames, or when its own triggers say so
+  bool operator==(const Pipeline&) const = default;
+};
+
+/// When the frames are drawn: at these times, or as many as insitu.frames says, equally spaced or dense at first.
+struct FrameTimes {
+  std::vector<double> list;  ///< s
+  bool dense_early = false;
+};
+
 struct InSitu {
   bool enabled = true;
-  int frames = 60;                     ///< equally spaced in simulated time, first and last included
-  std::vector<std::string> pipelines;  ///< Catalyst V2 scripts (paths) or "default"; empty: default
-  bool column_density = false;         ///< also draw the mass per area seen along y
-  OnError on_error = OnError::continue_run;
-  double max_share = 0.15;  ///< cadence is stretched when in-situ work exceeds this share of wall time
+  int frames = 60;                  ///< in simulated time, first and last included
+  FrameTimes times;                 ///< of the frames
+  std::vector<std::string> every;   ///< more frames, as parse_every() reads it
+  std::vector<std::string> events;  ///< more frames when one of event_words happens
+  int burst = 4;                    ///< frames after that of an event
+  std::vector<Pipeline> pipelines;  ///< empty: the default ones
+  bool column_density = false;      ///< also draw the mass per area seen along y
+  OnError on_error = OnError::warn;
+  double max_share = 0.15;  ///< frames are left out where in-situ work would exceed this share of the wall time
   int image_width = 960, image_height = 720;
   Triple view_center{unset, unset, unset};    ///< m; default: centre of the bodies at rest
   double view_size = unset;                   ///< m; visible width; default: 1.6 times the extent of the slowest body

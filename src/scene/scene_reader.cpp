@@ -28,17 +28,30 @@ void take_materials(Document& document, Scene& scene, Problems& problems) {
   document.tables.erase("materials");
 }
 
+/// Pipelines may be written short, as a list of scripts.
+void expand_pipelines(Document& document, Problems& problems) {
+  const std::string path = "insitu.pipelines";
+  expand_short_list(document, path, "script");
+  if (const auto item = document.items.find(path); item != document.items.end()) {
+    problems.add(item->second.origin, path,
+                 R"(expected a list such as ["default", "a.py", {script = "b.py", every = "2 us"}], got )" +
+                     to_text(item->second.literal));
+    document.items.erase(item);
+  }
+}
+
 /// A pipeline is written relative to the scene file, or is one of those that come with Ejecta.
 void find_pipelines(Scene& scene, const Document& document, Problems& problems) {
   namespace fs = std::filesystem;
-  for (std::string& pipeline : scene.insitu.pipelines) {
-    if (pipeline == default_pipelines_name) continue;
+  for (std::size_t k = 0; k < scene.insitu.pipelines.size(); ++k) {
+    std::string& pipeline = scene.insitu.pipelines[k].script;
+    if (pipeline == default_pipelines_name || pipeline.empty()) continue;
     const fs::path beside = fs::path(scene.file).parent_path() / pipeline;  // an absolute path stays itself
     const fs::path shipped = data_folder() / "catalyst_scripts" / pipeline;
     if (const bool own = fs::is_regular_file(beside); own || fs::is_regular_file(shipped)) {
       pipeline = fs::absolute(own ? beside : shipped).lexically_normal().string();
     } else {
-      const std::string key = "insitu.pipelines";
+      const std::string key = element_path("insitu.pipelines", k) + ".script";
       std::string complaint = fmt::format("expected a script, got \"{}\": no such file {}", pipeline, beside.string());
       if (shipped != beside) complaint += fmt::format(", nor {}", shipped.lexically_normal().string());
       problems.add(document.origin(key), key, complaint);
@@ -89,6 +102,7 @@ Scene interpret(Document document, const std::vector<std::string>& overrides, co
   }
   Scene scene;
   scene.file = document.file;
+  expand_pipelines(document, problems);
   take_materials(document, scene, problems);
   for (const SceneSection& section : context.sections)
     if (document.holds(section.name) || asks_for(document, section.schemes))

@@ -63,6 +63,10 @@ struct ToToml {
     for (const double value : *values) list += (list.empty() ? "" : ", ") + number_text(value, setting.unit);
     return "[" + list + "]";
   }
+  std::string operator()(const FrameTimes* times) const {
+    if (times->dense_early) return quoted(std::string(dense_early_word));
+    return times->list.empty() ? "" : (*this)(&times->list);
+  }
   std::string operator()(const Choice& choice) const {
     const std::string word = choice.get();
     if (word.empty()) return "";
@@ -93,6 +97,9 @@ struct Kind {
   std::string operator()(const std::string*) const { return "a text"; }
   std::string operator()(const std::vector<std::string>*) const { return "a list of texts"; }
   std::string operator()(const std::vector<double>*) const { return with_limits("a list, each " + expected_quantity(setting.unit)); }
+  std::string operator()(const FrameTimes*) const {
+    return fmt::format("\"{}\", or a list, each {}", dense_early_word, expected_quantity(setting.unit));
+  }
   std::string operator()(const Choice& choice) const { return fmt::format("{}", fmt::join(choice.words, " | ")); }
   template <class Integer>
   requires std::integral<Integer> std::string operator()(const Integer*) const { return with_limits("a whole number"); }

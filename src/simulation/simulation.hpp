@@ -1,7 +1,9 @@
 #pragma once
 /// The time loop: it knows packages and observers, and nothing of what they solve or show.
 #include <functional>
+#include <map>
 #include <memory>
+#include <string>
 #include <typeinfo>
 #include <vector>
 
@@ -19,6 +21,7 @@ struct Simulation {
   StageTimers timers;              ///< of observers
   double wall_seconds = 0;         ///< spent in steps so far, before restarts too
   double insitu_seconds = 0;       ///< spent in in-situ work so far, before restarts too
+  std::map<std::string, double> notes;  ///< what observers remember; checkpoints keep it
 };
 
 /// The packages that a scene asks for, set up. Throws as PackageKind::set_up does.

@@ -124,7 +124,7 @@ class BadInput(RunTest):
 
     def test_missing_script(self):
         line = self.edit("frames = 40", 'frames = 40\npipelines = ["mine.py"]') + 1
-        self.refused(f"scene.toml:{line}: insitu.pipelines:", "mine.py")
+        self.refused(f"scene.toml:{line}: insitu.pipelines[0].script:", "mine.py")
 
     def test_script_with_a_syntax_error(self):
         self.edit("frames = 40", 'frames = 40\npipelines = ["mine.py"]')

@@ -19,7 +19,7 @@ IMPACT_2D, IMPACT_3D, SOD = (SOURCE / "inputs" / f"{name}.toml" for name in ("pu
 SUMMARY_KEYS = """scene dimension scheme precision threads particles cells steps element_steps time_s wall_s
 particle_steps_per_s cell_steps_per_s pair_interactions_per_s neighbours_mean bytes_per_particle peak_rss_mb mass_error_rel momentum_error_rel
 angular_momentum_error_rel energy_error_rel shape_votes shape_few_neighbours shape_limited_change shape_largest_aspect
-images insitu_share insitu_bytes_written full_dump_bytes_avoided fragment_target
+images extracts frames frames_left_out pipelines insitu_share insitu_bytes_written full_dump_bytes_avoided fragment_target
 largest_fragment_mass_fraction fragments bodies quantities state reason not_written exit""".split()
 
 

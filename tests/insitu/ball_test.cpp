@@ -34,8 +34,12 @@ class Ball : public testing::Test {
                                            "options = catalyst.Options()\n"
                                            "def catalyst_execute(info):\n"
                                            "    raise ValueError('out of luck')\n";
-    std::ofstream(folder + "/fails_at_once.py") << "# script-version: 2.0\n"
-                                                   "raise ValueError('out of luck at once')\n";
+    std::ofstream(folder + "/exits.py") << "# script-version: 2.0\n"
+                                           "import sys\n"
+                                           "from paraview import catalyst\n"
+                                           "options = catalyst.Options()\n"
+                                           "def catalyst_execute(info):\n"
+                                           "    sys.exit(7)\n";
     // A writer of VTK that is given what it cannot write: no exception, only an error of VTK.
     std::ofstream(folder + "/writes_nothing.py")
         << "# script-version: 2.0\n"
@@ -47,18 +51,19 @@ class Ball : public testing::Test {
            "out.Writer.FileName = 'p_{timestep:06d}.vtpd'\n"
            "options = catalyst.Options()\n";
     std::vector<std::string> scripts = default_pipelines(scene_with(true));
-    scripts.insert(scripts.begin(), {folder + "/fails.py", folder + "/mine.py", folder + "/fails_at_once.py",
-                                     folder + "/writes_nothing.py"});
-    check_pipeline_scripts(scripts);
+    scripts.insert(scripts.begin(),
+                   {folder + "/fails.py", folder + "/mine.py", folder + "/exits.py", folder + "/writes_nothing.py"});
+    check_pipeline_scripts(plain_pipelines(scripts));
     signal(SIGINT, own_handler);
     const ShatteredBall young(3000, 20, 100, 0.1), old(3000, 20, 100, 0.3);
-    CatalystBridge bridge(scripts, young.settings(folder));
-    for (const char* channel : channel_names)
-      if (bridge.reads(channel)) read.insert(channel);
-    first = bridge.execute(0, 0, std::vector{young.particles(), young.slice(), young.fragments()});
-    second = bridge.execute(25, 30e-6, std::vector{old.particles(), old.slice(), old.fragments()});
-    repeated = bridge.execute(25, 30e-6, std::vector{old.particles(), old.slice(), old.fragments()});
-    failures = bridge.failures();
+    CatalystBridge bridge(plain_pipelines(scripts), young.settings(folder));
+    for (const std::string& channel : young.settings(folder).channels)
+      if (bridge.reads(channel.c_str())) read.insert(channel);
+    first = bridge.execute(0, 0, std::vector{young.particles(), young.slice(), young.fragments()}, every_frame(bridge));
+    second = bridge.execute(25, 30e-6, std::vector{old.particles(), old.slice(), old.fragments()}, every_frame(bridge));
+    repeated =
+        bridge.execute(25, 30e-6, std::vector{old.particles(), old.slice(), old.fragments()}, every_frame(bridge));
+    counts = bridge.counts();
   }
 
   static std::string image(const std::string& file) { return folder + "/images/" + file; }
@@ -66,15 +71,16 @@ class Ball : public testing::Test {
   static inline std::string folder;
   static inline FrameReport first, second, repeated;
   static inline std::set<std::string> read;  ///< channels, before the first frame
-  static inline int failures = 0;
+  static inline std::vector<PipelineCount> counts;
 };
 
 TEST_F(Ball, EveryViewHasAnImageEachFrame) {
   const std::vector<std::string> expected{image("cutaway_000025.png"), image("fragments_000025.png"),
                                           image("mine_000025.png"), image("slice_000025.png")};
-  EXPECT_EQ(second.images, expected);
-  EXPECT_EQ(first.images.size(), 4u);
-  EXPECT_EQ(second.pipelines.size(), 7u);
+  std::vector<std::string> files = second.files;  // in the order of the pipelines
+  std::ranges::sort(files);
+  EXPECT_EQ(files, expected);
+  EXPECT_EQ(first.files.size(), 4u);
 }
 
 TEST_F(Ball, ImagesHaveTheSceneSizeAndShowTheObjectWithinTheFrame) {
@@ -101,7 +107,7 @@ TEST_F(Ball, TheTableOfImagesAgreesWithTheFolder) {
   std::ifstream in(image("data.csv"));
   std::string line;
   std::getline(in, line);
-  EXPECT_EQ(line, "time,step,view,FILE");
+  EXPECT_EQ(line, "time,step,view,reason,FILE");
   int rows = 0;
   while (std::getline(in, line)) {
     ++rows;
@@ -117,14 +123,21 @@ TEST_F(Ball, AUsersExtractorWritesIntoTheRunFolder) {
   EXPECT_EQ(picture.height, 240);
 }
 
-TEST_F(Ball, AFailingScriptIsReportedOnceAndTheOthersGoOn) {
-  ASSERT_EQ(first.warnings.size(), 3u);
-  EXPECT_EQ(first.warnings[0], folder + "/fails.py:5: ValueError: out of luck");
-  EXPECT_EQ(first.warnings[1], folder + "/fails_at_once.py:2: ValueError: out of luck at once");
-  EXPECT_NE(first.warnings[2].find("writes_nothing.py: "), std::string::npos);
-  EXPECT_NE(first.warnings[2].find("a vtkPartitionedDataSet is required"), std::string::npos) << first.warnings[2];
-  EXPECT_TRUE(second.warnings.empty());
-  EXPECT_EQ(failures, 6);
+TEST_F(Ball, FailuresAreReportedAndCountedAndTheOthersGoOn) {
+  for (const FrameReport& report : {first, second}) {
+    ASSERT_EQ(report.failures.size(), 3u);
+    EXPECT_EQ(report.failures[0].text, folder + "/fails.py:5: ValueError: out of luck");
+    EXPECT_NE(report.failures[1].text.find("exits.py:6: RuntimeError: the script asked Python to exit, with 7"),
+              std::string::npos)
+        << report.failures[1].text;
+    EXPECT_NE(report.failures[2].text.find("a vtkPartitionedDataSet is required"), std::string::npos)
+        << report.failures[2].text;
+  }
+  ASSERT_EQ(counts.size(), 7u);
+  for (std::size_t k = 0; k < counts.size(); ++k) {
+    EXPECT_EQ(counts[k].frames, 2) << counts[k].name;
+    EXPECT_EQ(counts[k].failures, k == 1 || k > 3 ? 0 : 2) << counts[k].name;
+  }
   std::ostringstream log;
   log << std::ifstream(folder + "/insitu.log").rdbuf();
   EXPECT_NE(log.str().find("ValueError: out of luck"), std::string::npos);
@@ -134,7 +147,7 @@ TEST_F(Ball, TheChannelsThatScriptsReadAreKnownBeforeTheFirstFrame) {
   EXPECT_EQ(read, (std::set<std::string>{"particles", "slice", "fragments"}));
 }
 
-TEST_F(Ball, AStepIsShownOnce) { EXPECT_TRUE(repeated.images.empty() && repeated.pipelines.empty()); }
+TEST_F(Ball, AStepIsShownOnce) { EXPECT_TRUE(repeated.files.empty()); }
 
 TEST_F(Ball, TheRunsSignalHandlersSurvive) {
   struct sigaction now {};

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "insitu/catalyst_bridge.hpp"
 #include "render/colour_map.hpp"
 #include "scene/scene.hpp"
 
@@ -71,6 +72,13 @@ struct Picture {
            at(width - 1, height - 1) == white;
   }
 };
+
+/// All pipelines, because a frame is due.
+inline std::vector<PipelineCall> every_frame(const CatalystBridge& bridge) {
+  std::vector<PipelineCall> calls;
+  for (std::size_t k = 0; k < bridge.size(); ++k) calls.push_back({k, "frame"});
+  return calls;
+}
 
 /// A new empty folder for a test, below the working directory.
 inline std::string fresh_folder(const std::string& name) {

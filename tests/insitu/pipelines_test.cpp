@@ -12,7 +12,7 @@ namespace {
 
 std::vector<std::string> problems_of(const std::vector<std::string>& paths) {
   try {
-    check_pipeline_scripts(paths);
+    check_pipeline_scripts(plain_pipelines(paths));
   } catch (const InputError& error) {
     return error.problems();
   }
@@ -29,13 +29,14 @@ TEST(Pipelines, TheDefaultOnesPassTheCheck) {
 }
 
 TEST(Pipelines, TheDefaultOnesMayBeNamedAmongOthers) {
-  EXPECT_EQ(pipeline_scripts(scene_with(true)), default_pipelines(scene_with(true)));
-  std::vector<std::string> expected = default_pipelines(scene_with(false));
-  expected.insert(expected.begin(), "/mine.py");
-  expected.push_back("/yours.py");
+  EXPECT_EQ(pipelines_of(scene_with(true)), plain_pipelines(default_pipelines(scene_with(true))));
+  std::vector<Pipeline> expected = plain_pipelines(default_pipelines(scene_with(false)));
+  for (Pipeline& pipeline : expected) pipeline.every = "2 us";
+  expected.insert(expected.begin(), {"/mine.py", {"a"}, ""});
+  expected.push_back({"/yours.py", {}, "step"});
   Scene scene = scene_with(false);
-  scene.insitu.pipelines = {"/mine.py", "default", "/yours.py"};
-  EXPECT_EQ(pipeline_scripts(scene), expected);
+  scene.insitu.pipelines = {{"/mine.py", {"a"}, ""}, {"default", {}, "2 us"}, {"/yours.py", {}, "step"}};
+  EXPECT_EQ(pipelines_of(scene), expected);
 }
 
 TEST(Pipelines, ASyntaxErrorIsNamedWithFileAndLine) {

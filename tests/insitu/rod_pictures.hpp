@@ -13,17 +13,19 @@ void expect_pictures_of_tensors(int along) {
   const std::string folder = fresh_folder("rod_" + std::to_string(Dim));
   const std::string shipped = std::filesystem::path(default_pipelines(scene_with(false))[0]).parent_path().string();
   const std::vector<std::string> scripts{shipped + "/ellipses.py", shipped + "/damage.py"};
-  check_pipeline_scripts(scripts);
-  CatalystBridge bridge(scripts, rod_settings(folder, Dim));
-  for (const char* channel : channel_names) EXPECT_EQ(bridge.reads(channel), channel == std::string("ellipsoids"));
+  check_pipeline_scripts(plain_pipelines(scripts));
+  CatalystBridge bridge(plain_pipelines(scripts), rod_settings(folder, Dim));
+  for (const std::string& channel : rod_settings(folder, Dim).channels)
+    EXPECT_EQ(bridge.reads(channel.c_str()), channel == "ellipsoids");
   std::vector<std::string> images;
   for (const double crack : {0.0, 1.0}) {
     const Particles<Dim> rod = stretched_rod<Dim>(along, crack);
     const Ellipsoids layer = find_ellipsoids(rod, 0, rod_nodes_per_h);
     const int step = static_cast<int>(10 * crack);
-    const FrameReport report = bridge.execute(step, 2e-6 * step, std::vector{layer.channel("ellipsoids")});
-    EXPECT_TRUE(report.warnings.empty()) << report.warnings.front();
-    images.insert(images.end(), report.images.begin(), report.images.end());
+    const FrameReport report =
+        bridge.execute(step, 2e-6 * step, std::vector{layer.channel("ellipsoids")}, every_frame(bridge));
+    EXPECT_TRUE(report.failures.empty()) << report.failures.front().text;
+    images.insert(images.end(), report.files.begin(), report.files.end());
   }
   ASSERT_EQ(images.size(), 4u);  // damage and ellipses, whole and cracked
   for (const std::string& image : images) {

@@ -83,6 +83,7 @@ struct ShatteredBall {
   PipelineSettings settings(const std::string& run_folder) const {
     PipelineSettings s;
     s.run_folder = run_folder;
+    s.channels = {"particles", "slice", "ellipsoids", "fragments"};
     s.scene_title = "Shattered ball";
     s.view_size = 3.2 * radius;
     s.time_end = 100e-6;

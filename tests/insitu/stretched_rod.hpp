@@ -59,6 +59,7 @@ Particles<Dim> stretched_rod(int along, double crack) {
 inline PipelineSettings rod_settings(const std::string& run_folder, int dimension) {
   PipelineSettings s;
   s.run_folder = run_folder;
+  s.channels = {"particles", "slice", "ellipsoids"};
   s.scene_title = "Stretched rod";
   s.dimension = dimension;
   s.view_size = 1.6 * rod_length;

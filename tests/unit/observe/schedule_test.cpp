@@ -2,70 +2,125 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <string>
 #include <vector>
 
 namespace ejecta {
 namespace {
 
-/// Steps drawn of a run of ten steps of one second.
+/// A run of ten seconds.
+Scene scene_of(int frames) {
+  Scene scene;
+  scene.time_end = 10;
+  scene.insitu.frames = frames;
+  return scene;
+}
+
+/// Steps drawn of a run of ten steps of one second, each of which takes one second of wall time.
 std::vector<int> drawn_steps(FrameSchedule& schedule, int first = 0) {
   std::vector<int> drawn;
   for (int step = first; step <= 10; ++step)
-    if (schedule.take(step, step, step == 10)) drawn.push_back(step);
+    if (!schedule.take({step, 1.0 * step, 1.0 * step}, step == 10).reason.empty()) drawn.push_back(step);
   return drawn;
 }
 
+std::vector<int> drawn_steps(const Scene& scene) {
+  FrameSchedule schedule(scene);
+  return drawn_steps(schedule);
+}
+
 TEST(FrameSchedule, DrawsFirstLastAndEquallySpacedBetween) {
-  FrameSchedule schedule(10, 3);
+  FrameSchedule schedule(scene_of(3));
   EXPECT_EQ(schedule.next(), 0);
   EXPECT_EQ(drawn_steps(schedule), (std::vector{0, 5, 10}));
 }
 
-TEST(FrameSchedule, NoStepIsDrawnTwice) {
-  FrameSchedule schedule(10, 11);
-  EXPECT_TRUE(schedule.take(3, 3, false));
-  EXPECT_FALSE(schedule.take(3, 3, true));
-}
-
 TEST(FrameSchedule, AStepThatEndsAtTheTimeOfAFrameButForRoundingDrawsIt) {
-  FrameSchedule schedule(1, 11);
-  EXPECT_TRUE(schedule.take(0, 0, false));
-  EXPECT_TRUE(schedule.take(1, 0.1 * (1 - 1e-15), false));
-  EXPECT_NEAR(schedule.next(), 0.2, 1e-15);
+  FrameSchedule schedule(scene_of(11));
+  EXPECT_FALSE(schedule.take({0, 0, 0}, false).reason.empty());
+  EXPECT_FALSE(schedule.take({1, 1 * (1 - 1e-15), 0}, false).reason.empty());
+  EXPECT_EQ(schedule.next(), 2);
 }
 
-TEST(FrameSchedule, ThinnedOutItStillEndsStepsAtEveryFrameAndDrawsTheLast) {
-  FrameSchedule schedule(10, 11);
-  schedule.thin_out();
-  schedule.thin_out();
-  EXPECT_FALSE(schedule.take(0, 0, false));
-  EXPECT_EQ(schedule.next(), 1);
-  EXPECT_EQ(drawn_steps(schedule, 1), (std::vector{3, 7, 10}));
+TEST(FrameSchedule, TimesMayBeListedOrDenseAtFirst) {
+  Scene scene = scene_of(3);
+  scene.insitu.times.list = {7, 2};
+  EXPECT_EQ(drawn_steps(scene), (std::vector{0, 2, 7, 10}));
+  scene = scene_of(3);
+  scene.insitu.times.dense_early = true;
+  FrameSchedule schedule(scene);
+  schedule.take({0, 0, 0}, false);
+  EXPECT_DOUBLE_EQ(schedule.next(), 2.5);
+}
+
+TEST(FrameSchedule, MoreFramesEverySoManyStepsOrSoMuchTime) {
+  Scene scene = scene_of(2);
+  scene.insitu.every = {"4 steps"};
+  EXPECT_EQ(drawn_steps(scene), (std::vector{0, 4, 8, 10}));
+  scene.insitu.every = {"3 s"};
+  EXPECT_EQ(drawn_steps(scene), (std::vector{0, 3, 6, 9, 10}));
+  scene.insitu.every = {"5 s wall", "9 steps"};
+  EXPECT_EQ(drawn_steps(scene), (std::vector{0, 5, 9, 10}));
+}
+
+TEST(FrameSchedule, StepsEndAtTimesAndNeverBecauseOfTheWallClock) {
+  Scene scene = scene_of(2);
+  scene.insitu.every = {"3 s wall", "2 steps"};
+  FrameSchedule schedule(scene);
+  schedule.take({0, 0, 0}, false);
+  EXPECT_EQ(schedule.next(), 10);
+  schedule.add({1.5}, "after something");
+  EXPECT_EQ(schedule.next(), 10);
+}
+
+TEST(FrameSchedule, SaysWhy) {
+  Scene scene = scene_of(3);
+  scene.output.times = {3};
+  scene.insitu.every = {"2 steps"};
+  FrameSchedule schedule(scene);
+  const std::vector<std::string> expected{"frame",         "",      "every 2 steps", "output.times",
+                                          "every 2 steps", "frame", "every 2 steps", "",
+                                          "every 2 steps", "",      "frame"};
+  for (int step = 0; step <= 10; ++step) {
+    const FrameSchedule::Due due = schedule.take({step, 1.0 * step, 0}, step == 10);
+    EXPECT_EQ(due.reason, expected[static_cast<std::size_t>(step)]) << step;
+    EXPECT_EQ(due.always, step == 3 || step == 10) << step;
+  }
+}
+
+TEST(FrameSchedule, ABurstIsDrawnAtTheNextSteps) {
+  FrameSchedule schedule(scene_of(2));
+  schedule.take({0, 0, 0}, false);
+  schedule.add({2.5, 2.7, 4.1}, "after first contact");
+  EXPECT_EQ(drawn_steps(schedule, 1), (std::vector{3, 5, 10}));
 }
 
 TEST(FrameSchedule, GoesOnAfterARestartWithTheNextFrame) {
-  FrameSchedule schedule(10, 6);
-  schedule.resume(4);
+  FrameSchedule schedule(scene_of(6));
+  schedule.resume({4, 4, 4});
   EXPECT_EQ(schedule.next(), 6);
 }
 
-TEST(FrameSchedule, DrawsWhatIsAskedForBesides) {
-  FrameSchedule schedule(10, 3);
-  EXPECT_TRUE(schedule.take(0, 0, false));
-  schedule.ask();
-  EXPECT_TRUE(schedule.take(1, 1, false));
-  EXPECT_FALSE(schedule.take(2, 2, false));
-  schedule.change(2, 1.5);
-  EXPECT_EQ(schedule.next(), 3.5);
-  EXPECT_FALSE(schedule.take(3, 3, false));
-  EXPECT_TRUE(schedule.take(4, 3.5, false));
-  EXPECT_EQ(schedule.next(), 5);
+TEST(FrameSchedule, NoStepIsDrawnTwice) {
+  FrameSchedule schedule(scene_of(11));
+  EXPECT_FALSE(schedule.take({3, 3, 0}, false).reason.empty());
+  EXPECT_TRUE(schedule.take({3, 3, 0}, true).reason.empty());
 }
 
-TEST(FrameSchedule, KnowsTheTimesOfItsFrames) {
-  const FrameSchedule schedule(1, 11, {0.25});
-  for (const double time : {0.0, 0.1, 0.3, 0.7 * (1 + 1e-14), 1.0, 0.25}) EXPECT_TRUE(schedule.falls_on(time)) << time;
-  for (const double time : {0.05, 0.1001, 0.26}) EXPECT_FALSE(schedule.falls_on(time)) << time;
+TEST(FrameSchedule, DrawsWhatIsAskedForBesides) {
+  FrameSchedule schedule(scene_of(3));
+  EXPECT_TRUE(schedule.take({0, 0, 0}, false).scheduled);
+  schedule.ask();
+  const FrameSchedule::Due asked = schedule.take({1, 1, 0}, false);
+  EXPECT_EQ(asked.reason, "asked for");
+  EXPECT_TRUE(asked.always && !asked.scheduled);
+  EXPECT_TRUE(schedule.take({2, 2, 0}, false).reason.empty());
+  schedule.change(2, 1.5);
+  EXPECT_EQ(schedule.next(), 3.5);
+  EXPECT_TRUE(schedule.take({3, 3, 0}, false).reason.empty());
+  EXPECT_FALSE(schedule.take({4, 3.5, 0}, false).reason.empty());
+  EXPECT_EQ(schedule.next(), 5);
 }
 
 TEST(RowTimes, ARowThatOnlyAStopHasAddedIsDropped) {
@@ -88,26 +143,26 @@ TEST(RowTimes, ARowThatOnlyAStopHasAddedIsDropped) {
   EXPECT_TRUE(between.pass(1.5));
 }
 
-TEST(FrameGovernor, PassesOverTheFirstFrameAndJudgesFromTheSixthOn) {
-  FrameGovernor governor(0.15);
-  EXPECT_FALSE(governor.excess(100, 0));  // what it takes to start the renderer
-  for (int frame = 1; frame < 5; ++frame) EXPECT_FALSE(governor.excess(100 + frame, frame)) << frame;
-  const std::optional<double> share = governor.excess(105, 5);
-  ASSERT_TRUE(share);
-  EXPECT_DOUBLE_EQ(*share, 0.5);
+TEST(FrameGovernor, HoldsTheShareButForTheFirstFrame) {
+  FrameGovernor governor(0.2);
+  double insitu = 0;
+  int drawn = 0;
+  for (int step = 0; step < 1000; ++step) {  // of a second each; a frame takes half a second, the first one a hundred
+    if (!governor.affords(insitu, step)) continue;
+    const double before = insitu;
+    insitu += drawn++ == 0 ? 100 : 0.5;
+    governor.drawn(before, insitu, step);
+  }
+  const double after_first = insitu - 100;
+  EXPECT_LE(after_first / (after_first + 1000), 0.2);
+  EXPECT_GT(after_first / (after_first + 1000), 0.19);
 }
 
-TEST(FrameGovernor, BeginsAnewOnceItHasSpoken) {
-  FrameGovernor governor(0.15);
-  for (int frame = 0; frame < 5; ++frame) governor.excess(frame, frame);
-  ASSERT_TRUE(governor.excess(5, 5));
-  for (int frame = 6; frame < 11; ++frame) EXPECT_FALSE(governor.excess(frame, frame)) << frame;
-  EXPECT_TRUE(governor.excess(11, 11));
-}
-
-TEST(FrameGovernor, IsSilentWithinTheShareAllowed) {
-  FrameGovernor governor(0.15);
-  for (int frame = 0; frame < 20; ++frame) EXPECT_FALSE(governor.excess(frame, 9 * frame)) << frame;
+TEST(FrameGovernor, LeavesNothingOutWithTheWholeShare) {
+  FrameGovernor governor(1);
+  governor.drawn(0, 5, 0);
+  governor.drawn(5, 500, 1);
+  EXPECT_TRUE(governor.affords(500, 1));
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ TEST(Monitor, JsonHoldsTheStatusAndSurvivesAnyText) {
   const Tree& slice = tree.get_child("views").front().second;
   EXPECT_EQ(slice.get<std::string>("latest"), "../images/slice_000010.png");
   EXPECT_EQ(slice.get_child("frames").size(), 2u);
-  EXPECT_EQ(slice.get_child("frames").back().second.back().second.data(), "10");
+  EXPECT_EQ(std::next(slice.get_child("frames").back().second.begin(), 2)->second.data(), "10");
   EXPECT_EQ(tree.get_child("views").back().second.get<std::string>("latest"), "null");
   ASSERT_EQ(tree.get_child("history").size(), 2u);
   const Tree& pressure = tree.get_child("history").front().second;
@@ -120,10 +120,10 @@ TEST(Monitor, ReadsTheViewsOfTheImageIndex) {
   const auto folder = empty_folder("views");
   EXPECT_TRUE(read_views(folder).empty());
   std::filesystem::create_directories(folder / "images");
-  std::ofstream(folder / "images" / "data.csv") << "time,step,view,FILE\n"
-                                                   "0,0,slice,slice_000000.png\n"
-                                                   "0,0,damage,damage_000000.png\n"
-                                                   "1.5e-06,20,slice,slice_000020.png\n"
+  std::ofstream(folder / "images" / "data.csv") << "time,step,view,reason,FILE\n"
+                                                   "0,0,slice,frame,slice_000000.png\n"
+                                                   "0,0,damage,frame,damage_000000.png\n"
+                                                   "1.5e-06,20,slice,first contact,slice_000020.png\n"
                                                    "3e-06,4";  // a row being written
   const std::vector<MonitorView> views = read_views(folder);
   ASSERT_EQ(views.size(), 2u);
@@ -132,6 +132,7 @@ TEST(Monitor, ReadsTheViewsOfTheImageIndex) {
   EXPECT_EQ(views[0].frames[1].file, "images/slice_000020.png");
   EXPECT_EQ(views[0].frames[1].time, 1.5e-6);
   EXPECT_EQ(views[0].frames[1].step, 20);
+  EXPECT_EQ(views[0].frames[1].reason, "first contact");
   EXPECT_EQ(views[1].frames.size(), 1u);
 }
 
