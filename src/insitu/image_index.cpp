@@ -92,8 +92,8 @@ ImageIndex::ImageIndex(std::filesystem::path images_folder) : folder_(std::move(
     if (const std::size_t file = table.find("FILE"); file != CsvTable::npos)
       for (const std::vector<std::string>& row : table.rows)
         if (seen_.contains(row[file]))
-          rows_[row[file]] = value(row, "time") + ',' + value(row, "step") + ',' + value(row, "view") + ',' +
-                             value(row, "reason") + ',' + value(row, "FILE");
+          rows_.emplace_back(row[file], value(row, "time") + ',' + value(row, "step") + ',' + value(row, "view") + ',' +
+                             value(row, "reason") + ',' + value(row, "FILE"));
         else
           gone = true;
   }
@@ -115,7 +115,12 @@ std::vector<std::string> ImageIndex::add_new_files(std::int64_t step, double tim
     files.push_back((folder_ / file).string());
     added.push_back(text_of(time) + ',' + std::to_string(step) + ',' + cell(view_of(file, step)) + ',' + cell(reason) +
                     ',' + cell(file));
-    replaced |= !rows_.insert_or_assign(file, added.back()).second;
+    const auto listed = std::ranges::find(rows_, file, &std::pair<std::string, std::string>::first);
+    replaced |= listed != rows_.end();
+    if (listed != rows_.end())
+      listed->second = added.back();
+    else
+      rows_.emplace_back(file, added.back());
   }
   // A restarted run draws some frames again: one row a file is kept.
   if (replaced || !complete_ || !std::filesystem::exists(folder_ / "data.csv"))

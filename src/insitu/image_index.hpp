@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace ejecta {
@@ -25,7 +26,7 @@ class ImageIndex {
 
   std::filesystem::path folder_;
   std::map<std::string, std::filesystem::file_time_type> seen_;  ///< file, relative to the folder -> written when
-  std::map<std::string, std::string> rows_;                      ///< file -> row
+  std::vector<std::pair<std::string, std::string>> rows_;        ///< file and its row, in the order of writing
   bool complete_ = true;                                         ///< whether the table has all rows
 };
 
