@@ -104,6 +104,7 @@ std::string Hybrid<Dim>::outline() const {
   std::string text = grid_.outline();
   text += fmt::format("hybrid\n  particles          {} of {} at the start, {} to a cell\n", particles_->elements(),
                       format_quantity(scene_.spacing, "m"), std::pow(settings_.ratio, Dim));
+  if (solids_) text += "solids\n" + solids_->particles().outline();
   return text;
 }
 

@@ -1,5 +1,6 @@
 """The commands beside `run`: check, describe, info, movie, replay, and the help of each."""
 import re
+import tomllib
 import unittest
 from ejecta_run import IMPACT_2D, IMPACT_3D, SOD, SOURCE, RunTest, ejecta, movie_frames, settings
 
@@ -97,6 +98,15 @@ class Commands(RunTest):
         for name in ("scene.name", "resolution.spacing", "time.end", "numerics.scheme", "numerics.precision",
                      "numerics.nodes_per_h", "insitu.enabled", "insitu.frames", "run.threads", "random.seed"):
             self.assertIn(name, keys)
+
+    def test_every_shipped_scene_is_accepted(self):
+        scenes = sorted((SOURCE / "inputs").glob("*.toml"))
+        self.assertGreater(len(scenes), 15)
+        for scene in scenes:
+            with self.subTest(scene.stem):
+                result = ejecta("check", scene)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertEqual(tomllib.loads(scene.read_text())["scene"]["name"], scene.stem)
 
     def test_movie_and_replay_of_a_run(self):
         out = self.run_scene(IMPACT_2D, "run", {"resolution.spacing": "4mm", "time.end": "5us", "insitu.frames": 3,
