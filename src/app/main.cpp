@@ -121,6 +121,13 @@ int main(int argc, char** argv) {
                    "stop; pause; resume; checkpoint: write one now; frame: draw one now; end=TIME: of the run;\n"
                    "every=TIME: between frames")
       ->required();
+  ServeOptions serve_options;
+  CLI::App* serve = app.add_subcommand("serve", "show the monitor page and all files of a run folder over HTTP, to this machine alone");
+  serve->add_option("folder", serve_options.folder, "run folder")->required();
+  serve->add_option("--port", serve_options.port, "port (default: the first free one from 8080 on)")
+      ->check(CLI::Range(1, 65535));
+  serve->add_flag("--control", serve_options.control,
+                  "buttons for what control does, for those who have the address that is printed");
   CLI::App* movie = app.add_subcommand("movie", "make the movies of a run folder again");
   movie->add_option("folder", folder, "run folder")->required();
   movie->add_option("--fps", frames_per_second, "frames per second (default: about eight seconds in all)");
@@ -170,6 +177,7 @@ int main(int argc, char** argv) {
     }
     if (*check) return check_command(options.scene_file, options.overrides);
     if (*control) return control_command(folder, words);
+    if (*serve) return serve_command(serve_options);
     if (*movie) return movie_command(folder, frames_per_second);
     if (!at.empty()) replay_options.states.at = export_options.states.at = parse_quantity(at, "s");
     if (*replay) return replay_command(replay_options);

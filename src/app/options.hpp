@@ -56,6 +56,13 @@ struct ExportOptions {
   StateChoice states;
 };
 
+/// What the command line of `ejecta serve` says.
+struct ServeOptions {
+  std::string folder;
+  int port = 0;          ///< 0: the first free one from 8080 on
+  bool control = false;  ///< offer buttons for what `ejecta control` does to those who know the token
+};
+
 int run_command(const RunOptions& options);
 /// The one-dimensional solution that runs of a scene are compared with, and how well it has converged.
 int reference_command(const ReferenceOptions& options);
@@ -67,6 +74,8 @@ int export_command(const ExportOptions& options);
 int info_command();
 /// Leaves a line of control for the run that goes on in the folder.
 int control_command(const std::string& folder, const std::vector<std::string>& words);
+/// Serves a run folder to this machine until it is interrupted. Throws InputError if it is none or the port is taken.
+int serve_command(const ServeOptions& options);
 
 /// The folder of shipped material files.
 std::string material_library();
