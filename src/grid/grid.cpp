@@ -347,6 +347,12 @@ std::string Grid<Dim>::describe(std::size_t i) const {
 }
 
 template <int Dim>
+Whereabouts Grid<Dim>::whereabouts(std::size_t i) const {
+  const Vec<Dim> x = box_.centre(box_.cell(i));
+  return {"", {x.begin(), x.end()}};
+}
+
+template <int Dim>
 std::size_t Grid<Dim>::bytes() const {
   std::size_t sum = tiles_.capacity() * sizeof(TileState);
   for (const auto* cells : {&now_, &next_})

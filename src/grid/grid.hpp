@@ -42,6 +42,7 @@ class Grid final : public Package {
   std::vector<std::string> channel_names() const override { return {"grid"}; }
   std::vector<Channel> channels(const Asked& asked) const override;
   std::string describe(std::size_t cell) const override;
+  Whereabouts whereabouts(std::size_t cell) const override;
   std::string_view element() const override { return "cell"; }
   std::size_t elements() const override { return box_.size(); }
   double element_steps() const override { return cell_steps_; }

@@ -39,6 +39,7 @@ class Hybrid final : public Package {
   std::vector<std::string> channel_names() const override { return grid_.channel_names(); }
   std::vector<Channel> channels(const Asked& asked) const override;
   std::string describe(std::size_t cell) const override { return grid_.describe(cell); }
+  Whereabouts whereabouts(std::size_t cell) const override { return grid_.whereabouts(cell); }
   std::optional<BlastFront> blast() const override;
   std::size_t elements() const override;
   double element_steps() const override { return grid_.element_steps() + particle_steps_; }

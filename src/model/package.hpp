@@ -27,6 +27,12 @@ struct Vote {
   std::size_t culprit = nobody;  ///< particle, cell, ...: Package::describe() knows
 };
 
+/// Where a culprit is.
+struct Whereabouts {
+  std::string body;           ///< that it belongs to; may be empty
+  std::vector<double> place;  ///< its coordinates [m]; may be empty
+};
+
 /// Something to say when a run is over.
 struct Remark {
   std::string text;
@@ -67,8 +73,7 @@ class Package {
   virtual std::vector<Channel> channels(const Asked&) const { return {}; }
   /// Of a culprit, for messages.
   virtual std::string describe(std::size_t culprit) const = 0;
-  /// Where a culprit belongs, in a word or two, for the line of progress; may be empty.
-  virtual std::string whereabouts(std::size_t) const { return ""; }
+  virtual Whereabouts whereabouts(std::size_t /*culprit*/) const { return {}; }
   /// The blast of the charge; nothing without one, or before there is a shock.
   virtual std::optional<BlastFront> blast() const { return std::nullopt; }
   virtual std::string_view element() const { return "element"; }  ///< what it is made of: "particle", "cell"

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "observe/profile.hpp"
 #include "observe/solvers.hpp"
 
 namespace ejecta {
@@ -46,18 +47,12 @@ void Shocks::write_row(const Simulation& sim) {
 void Shocks::write_lineouts(const Simulation& sim) const {
   with_grid(sim, [&]<int Dim>(const Grid<Dim>& grid) {
     const Box<Dim>& box = grid.box();
-    std::array<int, Dim> cell{};
-    for (std::size_t a = 1; a < Dim; ++a) {
-      const double charge = sim.scene.charge ? (sim.scene.charge->center[a] - box.corner[static_cast<int>(a)]) / box.spacing
-                                             : 0.5 * box.cells[a];
-      cell[a] = std::clamp(static_cast<int>(std::floor(charge)), 0, box.cells[a] - 1);
-    }
     const std::array<CsvColumn, 6> columns{{{"x", "m"}, {"density", "kg/m^3"}, {"velocity x", "m/s"}, {"pressure", "Pa"},
                                             {"specific energy", "J/kg"}, {"mach", "1"}}};
     std::vector<std::vector<CsvCell>> rows;
-    for (cell[0] = 0; cell[0] < box.cells[0]; ++cell[0]) {
-      const CellState<Dim> s = grid.state(box.index(cell));
-      rows.push_back({box.centre(cell)[0], s.density, s.velocity[0], s.pressure, s.specific_energy,
+    for (const std::size_t i : row_of_cells(grid, sim.scene)) {
+      const CellState<Dim> s = grid.state(i);
+      rows.push_back({box.centre(box.cell(i))[0], s.density, s.velocity[0], s.pressure, s.specific_energy,
                       s.velocity.norm() / s.sound_speed});
     }
     write_csv(folder_ / fmt::format("lineouts/lineout_{:06d}.csv", sim.clock.step), columns, rows);

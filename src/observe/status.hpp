@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "observe/frames.hpp"
+#include "observe/pace.hpp"
 #include "output/fragment_files.hpp"
 #include "output/monitor.hpp"
 #include "simulation/simulation.hpp"
@@ -25,6 +26,7 @@ class Status final : public Observer {
 
  private:
   void gather(const Simulation& sim);
+  void gather_limit(const Simulation& sim);
 
   std::filesystem::path folder_;
   const Frames& frames_;
@@ -32,7 +34,8 @@ class Status final : public Observer {
   Monitor monitor_;
   MonitorStatus status_;
   FragmentContext context_;
-  double first_time_, first_wall_, first_total_, first_work_;
+  Pace pace_;
+  double first_wall_, first_work_;
 };
 
 }  // namespace ejecta

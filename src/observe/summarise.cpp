@@ -1,9 +1,8 @@
 #include "observe/summarise.hpp"
 
-#include <sys/resource.h>
-
 #include "base/parallel.hpp"
 #include "observe/checkpoints.hpp"
+#include "observe/memory.hpp"
 #include "observe/solvers.hpp"
 #include "observe/tables.hpp"
 #include "scene/names.hpp"
@@ -92,9 +91,7 @@ Summary summarise(const Simulation& sim, const Frames& frames, const FragmentCon
     if (sim.wall_seconds > 0)
       s.cell_steps_per_s = grid.element_steps() / sim.wall_seconds;
   });
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  s.peak_rss_mb = static_cast<double>(usage.ru_maxrss) / 1024;
+  s.peak_rss_mb = memory_peak() / (1024 * 1024);
   s.mass_error_rel = errors.mass;
   if (kept(sim).momentum) s.momentum_error_rel = errors.momentum;
   if (kept(sim).angular_momentum) s.angular_momentum_error_rel = errors.angular_momentum;

@@ -79,20 +79,19 @@ void Tables::observe(Simulation& sim, bool last) {
 
 void Progress::observe(Simulation& sim, bool last) {
   const auto now = clock::now();
-  if (start_time_ < 0) {
-    start_time_ = sim.clock.time;
+  if (!started_) {
+    started_ = true;
     start_wall_ = sim.wall_seconds;
     start_work_ = element_steps(sim);
   }
   if (now - shown_ < between_lines && !last) return;
-  const double elapsed = std::chrono::duration<double>(now - start_).count();
-  const double done = sim.clock.time - start_time_, left = sim.scene.time_end - sim.clock.time;
-  const std::string eta = done > 0 && !last ? "  ETA " + hours(elapsed * left / done) : "";
+  pace_.add(std::chrono::duration<double>(now - start_).count(), sim.clock);
+  const auto left = pace_.left(sim.scene.time_end, sim.scene.max_steps);
+  const std::string eta = left && !last ? "  ETA " + hours(*left) : "";
   const double wall = sim.wall_seconds - start_wall_;
   const double rate = wall > 0 ? (element_steps(sim) - start_work_) / wall / 1e6 : 0;
   const std::string_view element = sim.packages.size() == 1 ? sim.packages[0]->element() : "element";
-  const bool known = sim.voter && sim.vote.culprit != Vote::nobody;
-  const std::string where = known ? sim.voter->whereabouts(sim.vote.culprit) : "";
+  const std::string& where = sim.limited.body;
   spdlog::info("step {:6d}  t {:>10} of {}  dt {:>9} by {}{}  {:.2f} M {}-steps/s  dE/E {:+.1e}{}",
                sim.clock.step, format_quantity(sim.clock.time, "s"), format_quantity(sim.scene.time_end, "s"),
                format_quantity(sim.clock.dt, "s"), sim.vote.reason, where.empty() ? "" : " in " + where, rate, element,

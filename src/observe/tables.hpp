@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "observe/frames.hpp"
+#include "observe/pace.hpp"
 #include "observe/schedule.hpp"
 #include "output/fragment_files.hpp"
 #include "output/history.hpp"
@@ -43,7 +44,9 @@ class Progress final : public Observer {
  private:
   using clock = std::chrono::steady_clock;
   clock::time_point start_ = clock::now(), shown_{};
-  double start_time_ = -1, start_wall_ = 0, start_work_ = 0;
+  bool started_ = false;
+  double start_wall_ = 0, start_work_ = 0;
+  Pace pace_;
 };
 
 }  // namespace ejecta

@@ -28,6 +28,35 @@ std::string series_json(const MonitorSeries& s) {
                      json_list(rows, [&](std::size_t i) { return short_json(s.values[i]); }));
 }
 
+std::string profile_json(const MonitorProfile& profile) {
+  const auto numbers = [](const std::vector<double>& values) { return json_list(values, short_json); };
+  return fmt::format(R"({{"axis":{},"place":{},"fields":{}}})", to_json(profile.axis), numbers(profile.place),
+                     json_list(profile.fields, [&](const MonitorProfile::Field& f) {
+                       return fmt::format(R"({{"name":{},"unit":{},"values":{}}})", to_json(f.name), to_json(f.unit),
+                                          numbers(f.values));
+                     }));
+}
+
+/// Causes by name, most frequent first, with their shares of all reports; rows name a cause by its place in that list.
+std::string limits_json(const MonitorLimits& limits) {
+  std::vector<std::pair<std::string, double>> causes;
+  for (const std::string& cause : limits.cause) {
+    auto known = std::ranges::find(causes, cause, [](const auto& c) { return c.first; });
+    if (known == causes.end()) known = causes.insert(known, {cause, 0.0});
+    known->second += 1 / static_cast<double>(limits.cause.size());
+  }
+  std::ranges::stable_sort(causes, std::greater<>(), [](const auto& c) { return c.second; });
+  const auto row = [&](std::size_t i) {
+    const auto cause = std::ranges::find(causes, limits.cause[i], [](const auto& c) { return c.first; });
+    return fmt::format("[{},{},{},{}]", short_json(limits.time[i]), short_json(limits.dt[i]), cause - causes.begin(),
+                       json_list(limits.place[i], short_json));
+  };
+  return fmt::format(R"({{"causes":{},"rows":{}}})", json_list(causes, [](const auto& cause) {
+                       return fmt::format("[{},{}]", to_json(cause.first), short_json(cause.second));
+                     }),
+                     json_list(telling_rows(limits.dt, most_points), row));
+}
+
 std::string view_json(const MonitorView& view) {
   const auto frame = [](const MonitorFrame& f) {
     return fmt::format("[{},{},{},{}]", to_json("../" + f.file), short_json(f.time), f.step, to_json(f.reason));
@@ -94,6 +123,37 @@ std::vector<MonitorView> read_views(const std::filesystem::path& run_folder) {
   return views;
 }
 
+std::vector<std::string> read_log_tail(const std::filesystem::path& run_folder, std::size_t most) {
+  constexpr std::streamoff longest = 16384;  // bytes: logs of long runs are long
+  std::ifstream in(run_folder / "run.log", std::ios::ate);
+  std::vector<std::string> lines;
+  if (!in) return lines;
+  const std::streamoff size = in.tellg();
+  in.seekg(std::max<std::streamoff>(0, size - longest));
+  std::string line;
+  if (size > longest) std::getline(in, line);  // the rest of one
+  while (std::getline(in, line)) lines.push_back(line);
+  if (lines.size() > most) lines.erase(lines.begin(), lines.end() - static_cast<std::ptrdiff_t>(most));
+  return lines;
+}
+
+std::vector<std::string> find_files(const std::filesystem::path& run_folder) {
+  namespace fs = std::filesystem;
+  std::vector<std::string> files;
+  constexpr std::array<std::pair<const char*, const char*>, 6> kinds{
+      {{"movies", ".mp4"}, {"figures", ".png"}, {"", ".json"}, {"", ".csv"}, {"", ".toml"}, {"", ".log"}}};
+  for (const auto& [folder, extension] : kinds) {
+    std::error_code gone;
+    std::vector<std::string> found;
+    for (fs::directory_iterator entry(run_folder / folder, gone), end; !gone && entry != end; entry.increment(gone))
+      if (entry->path().extension() == extension)
+        found.push_back((fs::path(folder) / entry->path().filename()).string());
+    std::ranges::sort(found);
+    files.insert(files.end(), found.begin(), found.end());
+  }
+  return files;
+}
+
 std::vector<std::size_t> telling_rows(const std::vector<double>& values, std::size_t most) {
   std::vector<std::size_t> rows;
   const std::size_t n = values.size();
@@ -128,11 +188,15 @@ std::string monitor_json(const MonitorStatus& s, std::int64_t updated) {
   add("time_end_s", to_json(s.time_end));
   add("dt_s", to_json(s.dt));
   add("limited_by", to_json(s.limited_by));
+  add("limits", limits_json(s.limits));
   add("element", to_json(s.element));
   add("particles", to_json(s.particles));
   add("particle_steps_per_s", to_json(s.particle_steps_per_s));
   add("eta_s", to_json(s.eta_s));
   add("wall_s", to_json(s.wall_s));
+  add("insitu_share", to_json(s.insitu_share));
+  add("memory_bytes", to_json(s.memory));
+  add("memory_peak_bytes", to_json(s.memory_peak));
   add("energy_error_rel", to_json(s.energy_error));
   add("angular_momentum_error_rel", to_json(s.angular_momentum_error));
   add("warnings", json_list(s.warnings, [](const std::string& w) { return to_json(w); }));
@@ -143,6 +207,10 @@ std::string monitor_json(const MonitorStatus& s, std::int64_t updated) {
   add("views", json_list(pictures, view_json));
   add("extracts", json_list(extracts, extract_json));
   add("pipelines", json_list(s.pipelines, pipeline_json));
+  add("log", json_list(s.log));
+  add("files", json_list(s.files));
+  add("draws", s.draws ? "true" : "false");
+  add("profile", profile_json(s.profile));
   add("history", json_list(s.history, series_json));
   add("fragment_target", to_json(s.fragment_target));
   add("smallest_fragment", to_json(s.smallest_fragment));

@@ -38,6 +38,24 @@ struct MonitorView {
   std::vector<MonitorFrame> frames;
 };
 
+/// Values along a line, as of the last report.
+struct MonitorProfile {
+  std::string axis;           ///< x, y or z
+  std::vector<double> place;  ///< m; empty: there is nothing to show
+  struct Field {
+    std::string name, unit;
+    std::vector<double> values;  ///< SI
+  };
+  std::vector<Field> fields;
+};
+
+/// What limits the time step, report by report.
+struct MonitorLimits {
+  std::vector<double> time, dt;            ///< s; dt: the longest step that was allowed
+  std::vector<std::string> cause;          ///< "Courant condition in ball"
+  std::vector<std::vector<double>> place;  ///< m; empty where there is none
+};
+
 /// All the page shows. Values that do not apply stay empty.
 struct MonitorStatus {
   std::string scene;
@@ -46,21 +64,28 @@ struct MonitorStatus {
   std::int64_t step = 0;
   double time = 0, time_end = 0, dt = 0;  ///< s
   std::string limited_by;                 ///< winning vote of the time step
+  MonitorLimits limits;
   std::string element = "particle";  ///< what there are so many of
   std::int64_t particles = 0;
   std::optional<double> particle_steps_per_s;
   std::optional<double> eta_s;                   ///< wall time still needed
   double wall_s = 0;                             ///< wall time used
+  double insitu_share = 0;                       ///< of it, for pictures and fragments
+  double memory = 0, memory_peak = 0;            ///< bytes
   std::optional<double> energy_error;            ///< relative, 1
   std::optional<double> angular_momentum_error;  ///< relative, 1
   std::vector<MonitorView> views;                ///< see read_views()
   std::vector<MonitorPipeline> pipelines;        ///< none without Catalyst
   std::vector<MonitorSeries> history;            ///< whole runs are welcome: the page gets at most 300 points of each
+  MonitorProfile profile;
+  bool draws = true;                             ///< false: there will be no images
   std::string fragment_target;                   ///< name of the body that the next two refer to
   std::vector<double> fragment_masses;      ///< its matter in a fragment / its mass, heaviest first, without the dust
   std::optional<double> smallest_fragment;  ///< the same of the lightest fragment that is counted
   std::vector<std::string> warnings;
   std::vector<std::string> control;  ///< what was asked of the run while it went on, and what became of it
+  std::vector<std::string> log;      ///< its last lines
+  std::vector<std::string> files;    ///< worth a link, relative to the run folder
 
   /// Adds a point [s, SI] to the series of that name, which is made if there is none.
   void record(std::string_view name, std::string_view unit, double at, double value);
@@ -68,6 +93,11 @@ struct MonitorStatus {
 
 /// The views listed in images/data.csv of a run folder, in the order of their first image; empty if there is no list.
 std::vector<MonitorView> read_views(const std::filesystem::path& run_folder);
+
+/// The last lines of run.log, at most `most`.
+std::vector<std::string> read_log_tail(const std::filesystem::path& run_folder, std::size_t most);
+/// Tables, figures, movies and logs in a run folder that a person opens, in this order.
+std::vector<std::string> find_files(const std::filesystem::path& run_folder);
 
 /// Rows of a long series that keep its shape: the first, the last, and least and greatest value of equal blocks
 /// between. All rows if there are no more than `most` (at least 4).

@@ -22,12 +22,15 @@ using Packages = std::span<Package* const>;
 struct Winner {
   Vote vote;
   const Package* voter = nullptr;
+  Whereabouts where;
 };
 
 Winner count_votes(Packages packages) {
   Winner winner;
   for (Package* package : packages)
-    if (const Vote vote = package->vote(); !winner.voter || vote.dt < winner.vote.dt) winner = {vote, package};
+    if (const Vote vote = package->vote(); !winner.voter || vote.dt < winner.vote.dt) winner = {vote, package, {}};
+  if (winner.voter && winner.vote.culprit != Vote::nobody)
+    winner.where = winner.voter->whereabouts(winner.vote.culprit);
   return winner;
 }
 
@@ -121,9 +124,9 @@ std::vector<StageTimers::Entry> wall_times(const Simulation& sim) {
 }
 
 void step(Simulation& sim, double dt_limit) {
-  const Winner winner = step_together(pointers(sim), sim.clock, sim.timers, sim.scene, dt_limit);
+  Winner winner = step_together(pointers(sim), sim.clock, sim.timers, sim.scene, dt_limit);
   sim.vote = winner.vote;
-  sim.voter = winner.voter;
+  sim.limited = std::move(winner.where);
 }
 
 Vote step(Package& package, const Scene& scene, double dt_limit) {

@@ -17,7 +17,7 @@ struct Simulation {
   std::vector<std::unique_ptr<Package>> packages;
   Clock clock;                     ///< at which all packages have arrived
   Vote vote{.reason = "start"};    ///< that won the last step
-  const Package* voter = nullptr;  ///< whose it was
+  Whereabouts limited;             ///< where its culprit was then; steps may put particles in another order
   StageTimers timers;              ///< of observers
   double wall_seconds = 0;         ///< spent in steps so far, before restarts too
   double insitu_seconds = 0;       ///< spent in in-situ work so far, before restarts too

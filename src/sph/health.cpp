@@ -26,8 +26,10 @@ std::string origin_of_failure(const Sph<Dim>& sph, std::size_t i) {
 }  // namespace
 
 template <int Dim>
-std::string Sph<Dim>::whereabouts(std::size_t i) const {
-  return scene.bodies[static_cast<std::size_t>(particles.label(Label::body)[i])].name;
+Whereabouts Sph<Dim>::whereabouts(std::size_t i) const {
+  Whereabouts where{scene.bodies[static_cast<std::size_t>(particles.label(Label::body)[i])].name, {}};
+  for (int a = 0; a < Dim; ++a) where.place.push_back(particles.column(Field::position, a)[i]);
+  return where;
 }
 
 template <int Dim>
@@ -59,7 +61,7 @@ std::string Sph<Dim>::describe(std::size_t i) const {
   return fmt::format(
       "particle {} (body \"{}\", material \"{}\") at ({}) m, velocity ({}) m/s, density {:.6g} kg/m^3, specific energy "
       "{:.6g} J/kg, smoothing length {:.6g} m",
-      p.label(Label::id)[i], whereabouts(i), materials[static_cast<std::size_t>(p.label(Label::material)[i])].name,
+      p.label(Label::id)[i], whereabouts(i).body, materials[static_cast<std::size_t>(p.label(Label::material)[i])].name,
       components(Field::position), components(Field::velocity), p.column(Field::density)[i],
       p.column(Field::specific_energy)[i], p.column(Field::smoothing_length)[i]);
 }
@@ -86,7 +88,7 @@ template std::vector<Remark> Sph<2>::remarks() const;
 template std::vector<Remark> Sph<3>::remarks() const;
 template std::string Sph<2>::describe(std::size_t) const;
 template std::string Sph<3>::describe(std::size_t) const;
-template std::string Sph<2>::whereabouts(std::size_t) const;
-template std::string Sph<3>::whereabouts(std::size_t) const;
+template Whereabouts Sph<2>::whereabouts(std::size_t) const;
+template Whereabouts Sph<3>::whereabouts(std::size_t) const;
 
 }  // namespace ejecta

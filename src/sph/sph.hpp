@@ -71,7 +71,7 @@ struct Sph final : Package {
   std::string outline() const override;
   std::vector<Remark> remarks() const override;
   std::string describe(std::size_t particle) const override;
-  std::string whereabouts(std::size_t particle) const override;
+  Whereabouts whereabouts(std::size_t particle) const override;
   std::optional<BlastFront> blast() const override;
   std::string_view element() const override { return "particle"; }
   std::size_t elements() const override { return particles.size(); }
@@ -101,6 +101,11 @@ struct Sph final : Package {
 /// Throws InputError if two bodies overlap or a body holds no particle, SimulationError if the first evaluation fails.
 template <int Dim>
 std::unique_ptr<Sph<Dim>> set_up(const Scene& scene, const std::vector<Material>& materials);
+
+/// Whether a particle has a quarter at least of the neighbours it should have. The pressure of those that fly alone is
+/// that of their density and energy, which nothing around them keeps true.
+template <int Dim>
+bool has_neighbours(const Sph<Dim>& sph, std::size_t i);
 
 /// Mean number of neighbours within the support, from the effective n_h of each particle.
 template <int Dim>
