@@ -21,7 +21,7 @@ void peaks(Sph<Dim>& sph) {
     return;
   }
   parallel_for(0, p.size(), [&](std::size_t i) {
-    if (has_neighbours(sph, i)) pressure_peak[i] = std::max(pressure_peak[i], pressure[i]);
+    pressure_peak[i] = std::max(pressure_peak[i], pressure[i]);
     energy_peak[i] = std::max(energy_peak[i], energy[i]);
     density_low[i] = std::min(density_low[i], density[i]);
   });

@@ -64,15 +64,10 @@ Quantities Sph<Dim>::quantities() const {
                     return sign * p.column(f)[i];
                   }).value;
   };
-  const auto pressure = p.column(Field::pressure);
-  constexpr double none = std::numeric_limits<double>::max();
-  const double highest = -parallel_min(p.size(), none, [&](std::size_t i) {
-                            return has_neighbours(*this, i) ? -pressure[i] : none;
-                          }).value;
-  Quantities list{{"max pressure", "Pa", highest > -none ? highest : extreme(Field::pressure, -1),
-                   "highest of a particle that has neighbours", true},
-                  {"min density", "kg/m^3", extreme(Field::density, 1), "lowest of a particle"},
-                  {"max density", "kg/m^3", extreme(Field::density, -1), "highest of a particle"}};
+  Quantities list{
+      {"max pressure", "Pa", highest_pressure(*this), "highest of a particle with neighbours of its piece", true},
+      {"min density", "kg/m^3", extreme(Field::density, 1), "lowest of a particle"},
+      {"max density", "kg/m^3", extreme(Field::density, -1), "highest of a particle"}};
   if (p.has(Field::distension))
     list.push_back({"min distension", "1", extreme(Field::distension, 1), "of the most crushed particle"});
   if (p.has(Field::damage)) {
@@ -95,14 +90,6 @@ std::size_t Sph<Dim>::bytes() const {
 }
 
 template <int Dim>
-bool has_neighbours(const Sph<Dim>& sph, std::size_t i) {
-  constexpr double least_share = 0.25;
-  const double sum = sph.particles.column(Field::zeroth_moment)[i];
-  const double per_h = sph.support->effective_nodes_per_h(sum) / sph.scene.numerics.nodes_per_h;
-  return sum > 0 && std::pow(per_h, Dim) >= least_share;
-}
-
-template <int Dim>
 double mean_neighbours(const Sph<Dim>& sph) {
   const double radius = kernel_support(sph.scene.numerics.kernel);
   const auto sum = sph.particles.column(Field::zeroth_moment);
@@ -116,8 +103,6 @@ double mean_neighbours(const Sph<Dim>& sph) {
 
 template struct Sph<2>;
 template struct Sph<3>;
-template bool has_neighbours<2>(const Sph<2>&, std::size_t);
-template bool has_neighbours<3>(const Sph<3>&, std::size_t);
 template double mean_neighbours<2>(const Sph<2>&);
 template double mean_neighbours<3>(const Sph<3>&);
 

@@ -102,10 +102,10 @@ struct Sph final : Package {
 template <int Dim>
 std::unique_ptr<Sph<Dim>> set_up(const Scene& scene, const std::vector<Material>& materials);
 
-/// Whether a particle has a quarter at least of the neighbours it should have. The pressure of those that fly alone is
-/// that of their density and energy, which nothing around them keeps true.
+/// Highest pressure of particles that have neighbours of their own piece [Pa]: nothing relieves those that fly alone,
+/// which keep what they had. Of all if there are no others.
 template <int Dim>
-bool has_neighbours(const Sph<Dim>& sph, std::size_t i);
+double highest_pressure(const Sph<Dim>& sph);
 
 /// Mean number of neighbours within the support, from the effective n_h of each particle.
 template <int Dim>

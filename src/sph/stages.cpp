@@ -154,7 +154,7 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
         Fields{zeroth_moment, smoothing_length}.with(tensor, {smoothing_metric}).with(bonded, {bond}),
         Fields{smoothing_length}.with(tensor, {smoothing_metric}), smoothing_lengths<Dim>);
   if (scene.output.peaks)
-    add("peaks", {zeroth_moment, position, pressure, specific_energy, density, pressure_peak, specific_energy_peak, density_low},
+    add("peaks", {position, pressure, specific_energy, density, pressure_peak, specific_energy_peak, density_low},
         {pressure_peak, specific_energy_peak, density_low, initial_position}, peaks<Dim>);
   return stages;
 }
