@@ -141,7 +141,7 @@ std::vector<std::string> find_files(const std::filesystem::path& run_folder) {
   namespace fs = std::filesystem;
   std::vector<std::string> files;
   constexpr std::array<std::pair<const char*, const char*>, 6> kinds{
-      {{"movies", ".mp4"}, {"figures", ".png"}, {"", ".json"}, {"", ".csv"}, {"", ".toml"}, {"", ".log"}}};
+      {{"", ".mp4"}, {"figures", ".png"}, {"", ".json"}, {"", ".csv"}, {"", ".toml"}, {"", ".log"}}};
   for (const auto& [folder, extension] : kinds) {
     std::error_code gone;
     std::vector<std::string> found;

@@ -51,6 +51,11 @@ TEST(Monitor, JsonHoldsTheStatusAndSurvivesAnyText) {
   s.record("dt", "s", 0, 2e-9);
   s.record("max pressure", "Pa", 1e-6, std::numeric_limits<double>::infinity());
   s.fragment_masses = {0.25, 0.125};
+  s.limits = {{1, 2, 3},
+              {1e-3, 2e-3, 1e-3},
+              {"damage in ball", "Courant condition", "Courant condition"},
+              {{1, 2}, {}, {3, 4}}};
+  s.profile = {"x", {0, 1}, {{"pressure", "Pa", {5, 6}}}};
 
   const Tree tree = parse(monitor_json(s, 1700000000));
   EXPECT_EQ(tree.get<std::string>("scene"), s.scene);
@@ -72,6 +77,14 @@ TEST(Monitor, JsonHoldsTheStatusAndSurvivesAnyText) {
   EXPECT_EQ(pressure.get_child("values").front().second.data(), "1e+09");
   EXPECT_EQ(pressure.get_child("values").back().second.data(), "null");
   EXPECT_EQ(pressure.get_child("time").back().second.data(), "1e-06");
+  const Tree& causes = tree.get_child("limits.causes");  // most frequent first
+  ASSERT_EQ(causes.size(), 2u);
+  EXPECT_EQ(causes.front().second.front().second.data(), "Courant condition");
+  EXPECT_NEAR(std::stod(causes.front().second.back().second.data()), 2.0 / 3, 1e-6);
+  const Tree& first_row = tree.get_child("limits.rows").front().second;
+  EXPECT_EQ(std::next(first_row.begin(), 2)->second.data(), "1");
+  EXPECT_EQ(first_row.back().second.back().second.data(), "2");
+  EXPECT_EQ(tree.get_child("profile.fields").front().second.get_child("values").back().second.data(), "6");
   const Tree& lighter = tree.get_child("fragments").back().second;
   EXPECT_EQ(lighter.front().second.data(), "0.125");
   EXPECT_EQ(lighter.back().second.data(), "2");
@@ -136,6 +149,23 @@ TEST(Monitor, ReadsTheViewsOfTheImageIndex) {
   EXPECT_EQ(views[1].frames.size(), 1u);
 }
 
+TEST(Monitor, TailOfTheLogAndFilesWorthALink) {
+  const auto folder = empty_folder("tail");
+  EXPECT_TRUE(read_log_tail(folder, 3).empty());
+  std::ofstream log(folder / "run.log");
+  for (int k = 0; k < 5000; ++k) log << "line " << k << '\n';
+  log.close();
+  EXPECT_EQ(read_log_tail(folder, 2), (std::vector<std::string>{"line 4998", "line 4999"}));
+  const auto tail = read_log_tail(folder, 100000);  // long logs are not read whole, and begin with a whole line
+  EXPECT_LT(tail.size(), 5000u);
+  EXPECT_TRUE(tail.front().starts_with("line "));
+  std::filesystem::create_directories(folder / "figures");
+  for (const char* name : {"history.csv", "control", "movie_slice.mp4", "figures/energy.png", "figures/energy.gp"})
+    std::ofstream(folder / name) << "x";
+  EXPECT_EQ(find_files(folder),
+            (std::vector<std::string>{"movie_slice.mp4", "figures/energy.png", "history.csv", "run.log"}));
+}
+
 TEST(Monitor, WritesAtMostOnceAnIntervalUnlessForced) {
   const auto folder = empty_folder("rate");
   Monitor monitor(folder, std::chrono::milliseconds(200));
@@ -183,6 +213,8 @@ TEST(Monitor, FilesAreReplacedWholeAndThePageNeedsNothingElse) {
   std::string without_svg_name = page;
   const std::string svg_name = "http://www.w3.org/2000/svg";
   without_svg_name.erase(without_svg_name.find(svg_name), svg_name.size());
+  const std::string steering = "fetch(\"/control\"";  // only where ejecta serve has given a token
+  without_svg_name.erase(without_svg_name.find(steering), steering.size());
   for (const char* outside : {"http:", "https:", "@import", "fetch(", "XMLHttpRequest"})
     EXPECT_EQ(without_svg_name.find(outside), std::string::npos) << outside;
 }
