@@ -94,15 +94,19 @@ int main(int argc, char** argv) {
       "with --restart: the checkpoint, failed_*.h5 or snapshot to go on from; later ones are kept as *.aside");
   run->add_flag("--accept-changes", options.accept_changes,
                 "with --restart: go on though the scene differs, and say in what");
-  run->add_flag("--overwrite", options.overwrite, "replace an earlier run in the run folder; files that no run has written stay");
+  run->add_flag("--overwrite", options.overwrite,
+                "replace an earlier run in the run folder; files that no run has written stay");
   overrides(run);
-  CLI::App* check = app.add_subcommand("check", "validate a scene by setting it up as a run does (as long as a few steps, and its\n"
-                                 "memory); print stages, columns, memory and time");
+  CLI::App* check =
+      app.add_subcommand("check",
+                         "validate a scene by setting it up as a run does (as long as a few steps, and its\n"
+                         "memory); print stages, columns, memory and time");
   check->add_option("scene", options.scene_file, "scene file (TOML)")->required();
   overrides(check);
   ReferenceOptions reference_options;
   CLI::App* reference_app = app.add_subcommand(
-      "reference", "solve the scene in one dimension, finely: what runs of it are compared with, and how well it has converged");
+      "reference",
+      "solve the scene in one dimension, finely: what runs of it are compared with, and how well it has converged");
   reference_app->add_option("scene", options.scene_file, "scene file (TOML)")->required();
   reference_app->add_option("--spacing", reference_options.spacing,
                             "width of a cell, e.g. 5mm (default: charge radius / 100, else resolution.spacing / 4)");
@@ -122,7 +126,8 @@ int main(int argc, char** argv) {
                    "every=TIME: between frames")
       ->required();
   ServeOptions serve_options;
-  CLI::App* serve = app.add_subcommand("serve", "show the monitor page and all files of a run folder over HTTP, to this machine alone");
+  CLI::App* serve = app.add_subcommand(
+      "serve", "show the monitor page and all files of a run folder over HTTP, to this machine alone");
   serve->add_option("folder", serve_options.folder, "run folder")->required();
   serve->add_option("--port", serve_options.port, "port (default: the first free one from 8080 on)")
       ->check(CLI::Range(1, 65535));

@@ -16,6 +16,7 @@
 
 #include "app/control.hpp"
 #include "app/options.hpp"
+#include "app/run_lock.hpp"
 #include "base/errors.hpp"
 
 namespace ejecta {
@@ -153,8 +154,9 @@ int bind(httplib::Server& server, int asked) {
 }  // namespace
 
 int serve_command(const ServeOptions& options) {
-  if (!fs::exists(fs::path(options.folder) / "monitor" / "index.html"))
-    throw InputError(options.folder + ": expected a run folder, found no monitor/index.html in it");
+  const fs::path given = options.folder;
+  if (!fs::exists(given / "monitor" / "index.html") && !run_in(given))  // a run that has just begun has no page yet
+    throw InputError(options.folder + ": expected a run folder, found neither a run nor monitor/index.html in it");
   const fs::path folder = fs::absolute(options.folder);
   const std::string token = new_token();
   std::mutex one_line_at_a_time;
@@ -199,10 +201,10 @@ int serve_command(const ServeOptions& options) {
   });
   const int port = bind(server, options.port);
   const std::string address = fmt::format("http://{}:{}/", loopback, port);
-  fmt::print("{}{}\n{}\nFrom elsewhere: ssh -L {}:{}:{} {}, then the same address there. Ctrl-C ends it.\n", address,
+  fmt::print("{}{}\n{}\nFrom elsewhere: ssh -L {}:{}:{} HOST, then the same address there. Ctrl-C ends it.\n", address,
              options.control ? "#" + token : "",
              options.control ? "Whoever has this address can steer the run." : "Read-only; --control adds buttons.",
-             port, loopback, port, "HOST");
+             port, loopback, port);
   std::fflush(stdout);
   server.listen_after_bind();
   return exit_code::done;
