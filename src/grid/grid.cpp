@@ -349,7 +349,9 @@ std::string Grid<Dim>::describe(std::size_t i) const {
 template <int Dim>
 Whereabouts Grid<Dim>::whereabouts(std::size_t i) const {
   const Vec<Dim> x = box_.centre(box_.cell(i));
-  return {"", {x.begin(), x.end()}};
+  Whereabouts where{"", {}, Dim};
+  std::ranges::copy(x, where.x.begin());
+  return where;
 }
 
 template <int Dim>

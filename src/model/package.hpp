@@ -1,5 +1,6 @@
 #pragma once
 /// A solver as the time loop sees it. What it solves, and with which fields, is its own affair.
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -27,10 +28,12 @@ struct Vote {
   std::size_t culprit = nobody;  ///< particle, cell, ...: Package::describe() knows
 };
 
-/// Where a culprit is.
+/// Where a culprit is. Asked for in every step, so that nothing is allocated.
 struct Whereabouts {
-  std::string body;           ///< that it belongs to; may be empty
-  std::vector<double> place;  ///< its coordinates [m]; may be empty
+  std::string_view body;      ///< that it belongs to, of the package; may be empty
+  std::array<double, 3> x{};  ///< its first coordinates [m]
+  std::size_t dimension = 0;  ///< how many of them; 0: it has no place
+  std::vector<double> place() const { return {x.begin(), x.begin() + static_cast<std::ptrdiff_t>(dimension)}; }
 };
 
 /// Something to say when a run is over.
@@ -80,7 +83,7 @@ class Package {
   virtual std::size_t elements() const = 0;                       ///< how many
   /// Steps of single elements so far: what the speed is counted in.
   virtual double element_steps() const { return static_cast<double>(elements()) * static_cast<double>(clock.step); }
-  virtual std::size_t bytes() const = 0;     ///< memory
+  virtual std::size_t bytes() const = 0;  ///< memory
 
   /// Solvers that it drives: they are saved and shown like those of the run, which does not step them itself.
   virtual std::vector<Package*> parts() { return {}; }

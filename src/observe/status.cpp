@@ -72,8 +72,8 @@ void Status::gather_limit(const Simulation& sim) {
   if (sim.clock.step == 0 || (!limits.time.empty() && limits.time.back() == sim.clock.time)) return;
   limits.time.push_back(sim.clock.time);
   limits.dt.push_back(sim.vote.dt);
-  limits.cause.push_back(status_.limited_by + (sim.limited.body.empty() ? "" : " in " + sim.limited.body));
-  limits.place.push_back(sim.limited.place);
+  limits.cause.push_back(status_.limited_by + (sim.limited.body.empty() ? "" : " in " + std::string(sim.limited.body)));
+  limits.place.push_back(sim.limited.place());
 }
 
 void Status::observe(Simulation& sim, bool) {

@@ -124,9 +124,9 @@ std::vector<StageTimers::Entry> wall_times(const Simulation& sim) {
 }
 
 void step(Simulation& sim, double dt_limit) {
-  Winner winner = step_together(pointers(sim), sim.clock, sim.timers, sim.scene, dt_limit);
+  const Winner winner = step_together(pointers(sim), sim.clock, sim.timers, sim.scene, dt_limit);
   sim.vote = winner.vote;
-  sim.limited = std::move(winner.where);
+  sim.limited = winner.where;
 }
 
 Vote step(Package& package, const Scene& scene, double dt_limit) {

@@ -27,8 +27,8 @@ std::string origin_of_failure(const Sph<Dim>& sph, std::size_t i) {
 
 template <int Dim>
 Whereabouts Sph<Dim>::whereabouts(std::size_t i) const {
-  Whereabouts where{scene.bodies[static_cast<std::size_t>(particles.label(Label::body)[i])].name, {}};
-  for (int a = 0; a < Dim; ++a) where.place.push_back(particles.column(Field::position, a)[i]);
+  Whereabouts where{scene.bodies[static_cast<std::size_t>(particles.label(Label::body)[i])].name, {}, Dim};
+  for (std::size_t a = 0; a < Dim; ++a) where.x[a] = particles.column(Field::position, static_cast<int>(a))[i];
   return where;
 }
 
