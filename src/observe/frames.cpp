@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "base/errors.hpp"
 #include "observe/grid_frames.hpp"
@@ -149,7 +150,7 @@ void Frames::observe(Simulation& sim, bool last) {
 
 Signs Frames::signs(const Simulation& sim, bool) const {
   Signs signs;
-  if (sim.voter) signs.time_step = sim.vote.dt;  // else no step has been taken
+  if (std::isfinite(sim.vote.dt)) signs.time_step = sim.vote.dt;  // else no step has been taken
   return signs;
 }
 
