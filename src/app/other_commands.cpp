@@ -39,8 +39,9 @@ FirstSteps try_steps(Simulation& sim) {
   constexpr std::int64_t least = 3, most = 100;
   constexpr std::chrono::seconds enough{2};
   const auto left = [&] { return sim.scene.time_end - sim.clock.time; };
+  const std::int64_t allowed = std::min(most, sim.scene.max_steps.value_or(most));
   std::vector<double> seconds;
-  for (const auto start = std::chrono::steady_clock::now(); left() > 0 && sim.clock.step < most;) {
+  for (const auto start = std::chrono::steady_clock::now(); left() > 0 && sim.clock.step < allowed;) {
     const auto before = std::chrono::steady_clock::now();
     step(sim, left());
     const auto now = std::chrono::steady_clock::now();

@@ -27,6 +27,7 @@ void CompactionPlot::collect(const Particles<Dim>& p, std::span<const Material> 
 }
 
 void CompactionPlot::save(CheckpointView& view) const {
+  if (scheduled_ == 0) return;
   view.columns.push_back({"compaction.pressure", "Pa", std::span(pressure_).first(scheduled_)});
   view.columns.push_back({"compaction.distension", "1", std::span(distension_).first(scheduled_)});
   view.labels.push_back({"compaction.loading", "1", std::span(loading_).first(scheduled_)});

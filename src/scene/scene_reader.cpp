@@ -45,6 +45,9 @@ void find_pipelines(Scene& scene, const Document& document, Problems& problems) 
   namespace fs = std::filesystem;
   for (std::size_t k = 0; k < scene.insitu.pipelines.size(); ++k) {
     std::string& pipeline = scene.insitu.pipelines[k].script;
+    if (pipeline.empty() && !problems.has(element_path("insitu.pipelines", k) + ".script"))
+      problems.add(document.origin("insitu.pipelines"), element_path("insitu.pipelines", k) + ".script",
+                   "expected the path of a script, got nothing");
     if (pipeline == default_pipelines_name || pipeline.empty()) continue;
     const fs::path beside = fs::path(scene.file).parent_path() / pipeline;  // an absolute path stays itself
     const fs::path shipped = data_folder() / "catalyst_scripts" / pipeline;

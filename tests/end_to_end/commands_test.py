@@ -4,6 +4,8 @@ import tomllib
 import unittest
 from ejecta_run import IMPACT_2D, IMPACT_3D, SOD, SOURCE, RunTest, ejecta, movie_frames, settings
 
+COARSE = {"basalt_impact": "3 mm", "pumice_impact": "4 mm", "rubber_balls_3d": "4 mm", "tensile_rod_3d": "0.7 mm",
+          "blast_10kt": "50 cm", "blast_block": "20 cm", "blast_hybrid": "40 cm"}
 SECTION = re.compile(r"^\[+([\w.<>]+)\]+ ")
 KEY = re.compile(r"^  (\S+) +\S")
 
@@ -104,7 +106,8 @@ class Commands(RunTest):
         self.assertGreater(len(scenes), 15)
         for scene in scenes:
             with self.subTest(scene.stem):
-                result = ejecta("check", scene)
+                coarse = {"resolution.spacing": COARSE[scene.stem]} if scene.stem in COARSE else {}
+                result = ejecta("check", scene, *settings(coarse | {"time.max_steps": 2}))
                 self.assertEqual(result.returncode, 0, result.stderr)
                 self.assertEqual(tomllib.loads(scene.read_text())["scene"]["name"], scene.stem)
 

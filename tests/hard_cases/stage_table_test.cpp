@@ -5,8 +5,10 @@
 
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <set>
+#include <sstream>
 
 #include "material/material_reader.hpp"
 #include "scene/scene_reader.hpp"
@@ -157,8 +159,13 @@ TEST(StageTable, SaysWhatEachStageReadsAndWritesInEveryShippedScene) {
     const std::string name = entry.path().stem();
     SCOPED_TRACE(name);
     all.wrong.clear();
+    // No particles, or some that a grid leads; what grids are asked is not known here.
+    std::ostringstream text;
+    text << std::ifstream(entry.path()).rdbuf();
+    if (text.str().find("scheme = \"fvm\"") != std::string::npos ||
+        text.str().find("scheme = \"hybrid\"") != std::string::npos)
+      continue;
     const Scene scene = read_scene(entry.path(), coarse(name));
-    if (scene.numerics.on_grid()) continue;  // no particles, or some that a grid leads
     if (scene.dimension == 2)
       follow<2>(scene, all);
     else

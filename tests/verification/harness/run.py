@@ -32,7 +32,8 @@ class State:
         with h5py.File(file) as data:
             self.time, self.step = float(data.attrs["time"]), int(data.attrs["step"])
             self._order = np.argsort(data["labels/id"][:])
-            self.names = sorted({re.sub(r"_\d+$", "", name) for name in data["columns"]})
+            # Names with a dot are not of particles.
+            self.names = sorted({re.sub(r"_\d+$", "", name) for name in data["columns"] if "." not in name})
 
     def __getitem__(self, name):
         if name not in self._cache:
