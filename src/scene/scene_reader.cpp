@@ -28,6 +28,14 @@ void take_materials(Document& document, Scene& scene, Problems& problems) {
   document.tables.erase("materials");
 }
 
+/// A word that checkpoints and scenes of earlier versions have.
+void translate_former_words(Document& document) {
+  const auto item = document.items.find("insitu.on_error");
+  if (item == document.items.end()) return;
+  const auto* word = std::get_if<std::string>(&item->second.literal.value);
+  if (word && *word == "continue") item->second.literal.value = std::string("warn");
+}
+
 /// Pipelines may be written short, as a list of scripts.
 void expand_pipelines(Document& document, Problems& problems) {
   const std::string path = "insitu.pipelines";
@@ -105,6 +113,7 @@ Scene interpret(Document document, const std::vector<std::string>& overrides, co
   }
   Scene scene;
   scene.file = document.file;
+  translate_former_words(document);
   expand_pipelines(document, problems);
   take_materials(document, scene, problems);
   for (const SceneSection& section : context.sections)

@@ -193,6 +193,10 @@ TEST(NameOf, GivesTheWordOfTheScene) {
   EXPECT_EQ(name_of(Kernel::wendland_c4), "wendland_c4");
 }
 
+TEST(SceneReader, KnowsFormerWords) {
+  EXPECT_EQ(parse_scene(valid_scene + "[insitu]\non_error = \"continue\"\n", "s.toml").insitu.on_error, OnError::warn);
+}
+
 TEST(SceneReader, FindsPipelinesBesideTheSceneAndThenAmongTheShippedOnes) {
   const auto folder = std::filesystem::temp_directory_path() / fmt::format("ejecta_pipelines_{}", ::getpid());
   std::filesystem::create_directories(folder);
