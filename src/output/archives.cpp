@@ -64,6 +64,12 @@ class Reader final : public Archive {
   std::string prefix_;
 };
 
+/// The particles of a hybrid had the name of all particles until November 2026.
+std::string prefix_in(const Checkpoint& checkpoint, const Package& package) {
+  const std::string prefix = prefix_of(package);
+  return package.name() == "gas" && !checkpoint.columns.contains(prefix + "mass") ? "" : prefix;
+}
+
 void go_through(Archive& archive, Package& package) {
   persist(archive, package.clock, package.initial, package.external);
   package.persist(archive);
@@ -80,7 +86,7 @@ void save(Package& package, CheckpointView& view) {
 void load(Package& package, const Checkpoint& checkpoint) {
   for (Package* part : package.parts()) load(*part, checkpoint);
   package.clock = {checkpoint.time, checkpoint.dt, checkpoint.step};  // of checkpoints that hold no clock of a package
-  Reader reader(checkpoint, prefix_of(package));
+  Reader reader(checkpoint, prefix_in(checkpoint, package));
   go_through(reader, package);
 }
 
