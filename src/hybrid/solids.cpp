@@ -237,9 +237,14 @@ void Solids<Dim>::hold_out(Sph<Dim>& gas, const ParticlesByCell<Dim>& by_cell, c
       if (q < Shape::support) see(j, d, q, h);
     });
   };
+  std::vector<char> near(box.size(), 0);  // most gas is far from solids
+  for (std::size_t i = 0; i < g.size(); ++i)
+    if (is_image(g, i))
+      for_cells_near<Dim>(box, box.cell(cell_of(box, g.vector(Field::position, i))), radius,
+                          [&](std::size_t cell, int) { near[cell] = 1; });
   std::vector<double> filled(g.size(), 0.0);
   parallel_for(0, g.size(), [&](std::size_t i) {
-    if (is_image(g, i)) return;
+    if (is_image(g, i) || near[cell_of(box, g.vector(Field::position, i))] == 0) return;
     for_images(i, [&](std::size_t, const Vec<Dim>&, double q, double) { filled[i] += norm * Shape::value(q); });
   });
   for (std::size_t i = 0; i < g.size(); ++i) {
