@@ -67,10 +67,21 @@ bool shows_damage(const Sph<Dim>* solids) {
   return solids && solids->particles.has(Field::damage);
 }
 
+/// What a body of that speed [m/s] does to gas at rest that it pushes: about a simple shock before a piston.
+template <int Dim>
+Extremes pushed(Extremes e, const CellState<Dim>& gas, double speed) {
+  e.pressure = std::max(e.pressure, gas.pressure + gas.density * speed * (gas.sound_speed + speed));
+  e.density = std::max(e.density, gas.density * std::min(6.0, 1 + speed / gas.sound_speed));
+  return e;
+}
+
 template <int Dim>
 PicturePlan plan_of(const Simulation& sim, const Grid<Dim>& grid) {
-  PicturePlan plan{view_of(sim.scene, grid), {"density", "pressure"}, field_styles(sim.scene, expected(sim.scene, grid))};
-  plan.slice_fields.emplace_back(shows_damage(solids_of(find_package<Hybrid<Dim>>(sim))) ? "damage" : "mach");
+  const Sph<Dim>* solids = solids_of(find_package<Hybrid<Dim>>(sim));
+  Extremes extremes = expected(sim.scene, grid);
+  if (solids) extremes = pushed(extremes, grid.ambient(), solids->outset.speed);
+  PicturePlan plan{view_of(sim.scene, grid), {"density", "pressure"}, field_styles(sim.scene, extremes)};
+  plan.slice_fields.emplace_back(shows_damage(solids) ? "damage" : "mach");
   return plan;
 }
 

@@ -410,6 +410,38 @@ TEST(HybridSolids, LedgersCloseWhileABlockFlies) {
   expect_closed(*hybrid);
 }
 
+TEST(HybridSolids, LedgersCloseIn3D) {
+  const auto hybrid = make_hybrid<3>(R"([scene]
+name = "block"
+dimension = 3
+[resolution]
+spacing = "0.1 m"
+[time]
+end = "10 ms"
+[gas]
+density = "1.4 kg/m^3"
+pressure = "0.1 MPa"
+[[bodies]]
+name = "block"
+material = "aluminium"
+shape = "box"
+size = ["0.5 m", "0.4 m", "0.4 m"]
+velocity = ["200 m/s", "0 m/s", "0 m/s"]
+[boundary]
+min = ["-1.8 m", "-1.8 m", "-1.8 m"]
+max = ["1.8 m", "1.8 m", "1.8 m"]
+[numerics]
+scheme = "hybrid"
+)");
+  const double before = hybrid->solids()->particles().conserved().momentum[0];
+  take_steps(*hybrid, hybrid->particles().scene, 6);
+  // The gas before the block presses with twice the pressure of rest, that behind with less than half.
+  const double lost = before - hybrid->solids()->particles().conserved().momentum[0];
+  EXPECT_GT(lost, 0.5 * 0.16 * 1e5 * hybrid->clock.time);
+  EXPECT_LT(lost, 2.5 * 0.16 * 1e5 * hybrid->clock.time);
+  expect_closed(*hybrid);
+}
+
 TEST(HybridSolids, NeedGasAroundThemAndFineParticles) {
   const auto message = [](const std::string& toml, const std::vector<std::string>& overrides) {
     try {
