@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <optional>
 
 #include "base/errors.hpp"
@@ -166,24 +167,68 @@ unset multiplot
                      kinetic + 1, internal + 1, total + 1, error + 1, table.unit(total));
 }
 
+/// A panel for each column that people look at, all over the same time.
+std::optional<std::string> probe(const fs::path& run, const FigureSettings& settings, const ProbeFigure& probe) {
+  const std::string file = fmt::format("probe_{}.csv", probe.name), measured = fmt::format("probe_{}_measured.csv", probe.name);
+  if (!fs::exists(run / file)) return {};
+  const CsvTable table = read_csv(run / file);
+  const std::optional<CsvTable> points = fs::exists(run / measured) ? std::optional(read_csv(run / measured)) : std::nullopt;
+  struct Panel {
+    std::string name;
+    std::size_t column;
+  };
+  std::vector<Panel> panels;
+  for (const char* name : {"velocity", "pressure", "strain"})
+    if (const std::size_t column = table.find(name); column != CsvTable::npos && !table.rows.empty())
+      panels.push_back({name, column});
+  if (panels.empty()) return {};
+  std::string script = preamble("probe_" + probe.name, settings.title, "probe " + probe.name) +
+                       fmt::format(fmt::runtime(time_axis), file) +
+                       fmt::format("set multiplot layout {},1\nset lmargin 12\nset rmargin 4\n", panels.size());
+  for (std::size_t k = 0; k < panels.size(); ++k) {
+    const std::string unit = table.unit(panels[k].column);
+    const std::size_t seen = points ? points->find(panels[k].name) : CsvTable::npos;
+    if (k > 0) script += "unset title\n";
+    script += k + 1 < panels.size() ? "set format x ''\nunset xlabel\n"
+                                    : "set format x '%g'\nset xlabel sprintf('time [%ss]', prefix(t))\n";
+    script += fmt::format(R"(set key {3}
+stats '{0}' using (abs(${1})) nooutput
+u = {4} && STATS_max > 0 ? factor(STATS_max) : 1
+set ylabel {4} ? sprintf('{2} [%s{5}]', prefix(u)) : '{2}'
+plot '{0}' using ($1 / t):(${1} / u) with lines ls 1 title 'computed')",
+                          file, panels[k].column + 1, panels[k].name, seen == CsvTable::npos ? "off" : "bottom right",
+                          unit == "1" ? 0 : 1, unit);
+    if (seen != CsvTable::npos)
+      script += fmt::format(", '{}' using (($1 + {:.9g}) / t):(${} / u) with points lc rgb '#222222' pt 6 ps 0.7 title 'measured'",
+                            measured, probe.measured_delay, seen + 1);
+    script += '\n';
+  }
+  return script + "unset multiplot\n";
+}
+
 }  // namespace
 
 std::vector<Figure> make_figures(const fs::path& run_folder, const FigureSettings& settings) {
-  using Draw = std::optional<std::string> (*)(const fs::path&, const FigureSettings&);
+  using Script = std::optional<std::string>;
   struct Plot {
-    const char* name;
-    Draw script;
+    std::string name;
+    std::function<Script()> script;
   };
+  std::vector<Plot> plots{{"compaction", [&] { return compaction(run_folder, settings); }},
+                          {"fragment_distribution", [&] { return fragment_distribution(run_folder, settings); }},
+                          {"largest_fragment", [&] { return largest_fragment(run_folder, settings); }},
+                          {"energy", [&] { return energy(run_folder, settings); }}};
+  for (const ProbeFigure& p : settings.probes)
+    plots.push_back({"probe_" + p.name, [&] { return probe(run_folder, settings, p); }});
   std::vector<Figure> figures;
-  for (const Plot& plot : {Plot{"compaction", compaction}, Plot{"fragment_distribution", fragment_distribution},
-                           Plot{"largest_fragment", largest_fragment}, Plot{"energy", energy}}) {
-    Figure figure{run_folder / "figures" / (std::string(plot.name) + ".png"), ""};
+  for (const Plot& plot : plots) {
+    Figure figure{run_folder / "figures" / (plot.name + ".png"), ""};
     try {
-      const std::optional<std::string> script = plot.script(run_folder, settings);
+      const Script script = plot.script();
       if (!script) continue;
       std::error_code failed;
       fs::create_directories(run_folder / "figures", failed);
-      const std::string script_name = std::string("figures/") + plot.name + ".gp";
+      const std::string script_name = "figures/" + plot.name + ".gp";
       std::ofstream(run_folder / script_name) << *script;
       figure.problem = run_program({"gnuplot", script_name}, run_folder);
     } catch (const InputError& error) {

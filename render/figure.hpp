@@ -8,9 +8,15 @@
 
 namespace ejecta {
 
+struct ProbeFigure {
+  std::string name;           ///< of the probe
+  double measured_delay = 0;  ///< s; added to the times of probe_<name>_measured.csv, if there is one
+};
+
 struct FigureSettings {
   std::string title;                                                   ///< over every plot
   std::string fragment_target;                                         ///< body that fragment masses refer to
+  std::vector<ProbeFigure> probes;
   double resolution_limit = std::numeric_limits<double>::quiet_NaN();  ///< smallest mass counted as a fragment [kg]
 };
 
@@ -22,7 +28,8 @@ struct Figure {
 
 /// Draws what there is data for: figures/compaction.png (from figures/compaction.csv and figures/crush_curve.csv),
 /// fragment_distribution.png, largest_fragment.png and energy.png (from fragment_distribution.csv,
-/// largest_fragment.csv and history.csv). Plots without data are left out; without gnuplot each says so.
+/// largest_fragment.csv and history.csv), probe_<name>.png (from probe_<name>.csv: velocity, pressure and strain, as far
+/// as they are there, and what was measured of them). Plots without data are left out; without gnuplot each says so.
 std::vector<Figure> make_figures(const std::filesystem::path& run_folder, const FigureSettings& settings);
 
 }  // namespace ejecta

@@ -14,6 +14,7 @@
 #include "commit.hpp"
 #include "material/material_reader.hpp"
 #include "observe/memory.hpp"
+#include "observe/probes.hpp"
 #include "render/movie.hpp"
 #include "scene/units.hpp"
 #include "simulation/simulation.hpp"
@@ -70,6 +71,7 @@ int check_command(const std::string& scene_file, const std::vector<std::string>&
                    format_quantity(steps_of_a_set_up * e.seconds / e.steps, "s"));
   const auto start = std::chrono::steady_clock::now();
   Simulation sim = set_up_simulation(scene, materials.list);
+  for (const std::string& odd : place_probes(sim)) spdlog::warn("{}", odd);
   const std::chrono::duration<double> set_up_time = std::chrono::steady_clock::now() - start;
   for (const auto& package : sim.packages) fmt::print("{}", package->outline());
   fmt::print("set-up\n");

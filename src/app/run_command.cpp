@@ -21,6 +21,7 @@
 #include "observe/columns.hpp"
 #include "observe/frames.hpp"
 #include "observe/outputs.hpp"
+#include "observe/probes.hpp"
 #include "observe/shocks.hpp"
 #include "observe/solvers.hpp"
 #include "observe/status.hpp"
@@ -132,6 +133,7 @@ void conclude(const Simulation& sim, const Frames& frames, const Job& job, Outpu
   figures.title = sim.scene.title;
   if (!context.bodies.empty()) figures.fragment_target = context.bodies[context.target];
   figures.resolution_limit = context.smallest;
+  for (const Probe& probe : sim.scene.probes) figures.probes.push_back({probe.name, probe.measured_delay});
   for (const Figure& figure : make_figures(job.folder, figures))
     if (!figure.problem.empty()) spdlog::warn("{}: {}", figure.file.filename().string(), figure.problem);
   if (frames.images() > 0)
@@ -170,7 +172,9 @@ int run(const Job& job) {
   if (job.restart) checkpoint = find_checkpoint(job, problems);
   Simulation sim = set_up_simulation(job.scene, job.materials.list);
   if (checkpoint) restore(sim, *checkpoint);
+  const std::vector<std::string> odd_probes = place_probes(sim);
   prepare_folder(job);
+  for (const std::string& odd : odd_probes) spdlog::warn("{}", odd);
   if (!lock.left_by().empty()) spdlog::info("{} was killed here before", lock.left_by());
   if (job.scene.insitu.enabled && !job.catalyst)
     spdlog::warn("no OpenGL here: Catalyst is left out, slices are drawn by Ejecta itself, all data are written");
@@ -192,9 +196,10 @@ int run(const Job& job) {
   Tables tables(job.scene, job.folder, frames, context, outputs, resume_at);
   Checkpoints checkpoints(job.folder, job.resolved, job.scene, frames, outputs, resume_at);
   Shocks shocks(sim, job.folder, outputs, resume_at);
+  Probes probes(sim, job.folder, outputs, resume_at);
   Status status(sim, job.folder, frames, context, outputs);
   Progress progress;
-  std::vector<Observer*> observers{&frames, &tables, &shocks, &checkpoints, &status};
+  std::vector<Observer*> observers{&frames, &tables, &shocks, &probes, &checkpoints, &status};
   const auto keep_folder = [&] {
     outputs.write("run folder", Outputs::Loss::until_next, [&] {
       if (lock.keep()) spdlog::warn("{} or its lock was removed: made again", job.folder.string());

@@ -44,10 +44,6 @@ bool RowTimes::pass(double time) {
   return asked || due;
 }
 
-double row_interval(const Scene& scene) {
-  return is_set(scene.output.history_interval) ? scene.output.history_interval : scene.time_end / 200;
-}
-
 Trigger::Trigger(std::vector<double> times, std::string reason) : times_(std::move(times)), reason_(std::move(reason)) {
   std::ranges::sort(times_);
 }

@@ -42,6 +42,8 @@ class RowTimes {
   /// `interval` [s]; `resume_at`: where a restart goes on.
   RowTimes(double interval, const std::vector<double>& times, const std::optional<Clock>& resume_at);
   double next_time() const { return times_.next(); }
+  /// When the next row of the interval is due [s].
+  double next_row() const { return next_; }
   /// Whether a row is due at the end of a step [s].
   bool pass(double time);
   /// Rows later than this belong to no schedule and are dropped after a restart [s]: they were written after the
@@ -53,9 +55,6 @@ class RowTimes {
   OutputTimes times_;
   std::optional<double> kept_until_;
 };
-
-/// output.history_interval or its default [s].
-double row_interval(const Scene& scene);
 
 /// Where a run is, for whoever waits for something.
 struct Moment {

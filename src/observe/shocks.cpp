@@ -14,7 +14,7 @@ Shocks::Shocks(const Simulation& sim, std::filesystem::path folder, Outputs& out
                const std::optional<Clock>& resume_at)
     : folder_(std::move(folder)),
       outputs_(outputs),
-      due_(row_interval(sim.scene), sim.scene.output.times, resume_at),
+      due_(sim.scene.row_interval(), sim.scene.output.times, resume_at),
       times_(sim.scene.output.times) {
   if (resume_at) times_.pass(resume_at->time);
 }

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
+#include "observe/probes.hpp"
 #include "observe/solvers.hpp"
 #include "scene/units.hpp"
 
@@ -40,6 +42,7 @@ FragmentContext fragment_context(const Simulation& sim) {
 
 Quantities quantities(const Simulation& sim, const Frames& frames, const FragmentContext& context) {
   Quantities list = quantities(sim);
+  std::ranges::move(quantities_of_probes(sim), std::back_inserter(list));
   if (const auto& fragments = frames.fragments()) {
     const std::string target = context.bodies[context.target];
     list.push_back({"largest fragment mass fraction", "mass of " + target,
@@ -51,7 +54,7 @@ Quantities quantities(const Simulation& sim, const Frames& frames, const Fragmen
 
 Tables::Tables(const Scene& scene, const std::filesystem::path& folder, Frames& frames, FragmentContext context,
                Outputs& outputs, const std::optional<Clock>& resume_at)
-    : due_(row_interval(scene), scene.output.times, resume_at),
+    : due_(scene.row_interval(), scene.output.times, resume_at),
       frames_(frames),
       outputs_(outputs),
       context_(std::move(context)),

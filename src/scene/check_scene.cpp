@@ -58,6 +58,11 @@ void check_body(const Scene& scene, const Body& body, const std::string& path, c
     report(path + ".inner_radius",
            fmt::format("expected less than the radius {}, got {}", format_quantity(body.radius, "m"),
                        format_quantity(body.inner_radius, "m")));
+  const bool shells = body.lattice == BodyLattice::shells;
+  if (shells && !shape.radius)
+    report(path + ".lattice", fmt::format("expected cubic, hexagonal or glass of a {}, got shells", shape.word));
+  if (shells && scene.numerics.on_grid()) report(path + ".lattice", "expected particles alone with shells");
+  if (!shells && body.aspect != 1) report(path + ".aspect", "expected 1 without lattice = \"shells\"");
   if (body.axis == Triple{0, 0, 0}) report(path + ".axis", "expected a direction, got [0, 0, 0]");
   // A body made to measure may be thinner than the spacing by rounding.
   const double spacing = scene.spacing * body.spacing_factor;
@@ -158,6 +163,25 @@ void check_triggers(const Scene& scene, const Report& report) {
   }
 }
 
+void check_probe(const Scene& scene, const Probe& probe, const std::string& path, const Report& report) {
+  if (scene.dimension == 2 && ((is_set(probe.at[2]) && probe.at[2] != 0) || probe.direction[2] != 0))
+    report(path + (probe.direction[2] != 0 ? ".direction" : ".at"), "expected no z component in 2D");
+  const bool beam = probe.kind == ProbeKind::velocimeter;
+  if (beam && !probe.directed()) report(path + ".direction", "missing: a velocimeter needs it");
+  if (!beam && is_set(probe.spot)) report(path + ".spot", fmt::format("a {} has none", name_of(probe.kind)));
+  if (probe.kind != ProbeKind::point && scene.numerics.scheme == SchemeKind::fvm)
+    report(path + ".kind", fmt::format("expected point on a grid, got {}", name_of(probe.kind)));
+  std::vector<std::string> names;
+  for (const Body& body : scene.bodies) names.push_back(body.name);
+  if (!probe.body.empty() && std::ranges::find(names, probe.body) == names.end())
+    report(path + ".body",
+           fmt::format("expected the name of a body ({}), got \"{}\"", fmt::join(names, ", "), probe.body));
+  const double between = is_set(probe.interval) ? probe.interval : scene.row_interval();
+  if (probe.window > between * (1 + 1e-9))
+    report(path + ".window", fmt::format("expected no more than the interval between rows, {}, got {}",
+                                         format_quantity(between, "s"), format_quantity(probe.window, "s")));
+}
+
 /// What Riemann problems between particles cannot do.
 void check_godunov(const Numerics& n, const Report& report) {
   if (!n.godunov()) return;
@@ -210,6 +234,14 @@ void check_scene(const Scene& scene, const Document& document, Problems& problem
       const Origin origin = values.items.empty() ? Origin{document.file, 0} : values.items.begin()->second.origin;
       problems.add(origin, "materials." + name, "no body is made of it");
     }
+  std::set<std::string> probe_names;
+  for (std::size_t k = 0; k < scene.probes.size(); ++k) {
+    const std::string path = element_path("probes", k);
+    check_name(path + ".name", scene.probes[k].name);
+    if (!probe_names.insert(scene.probes[k].name).second)
+      report(path + ".name", fmt::format("expected a name of its own, got \"{}\" again", scene.probes[k].name));
+    check_probe(scene, scene.probes[k], path, report);
+  }
   check_boundary(scene, report);
   check_godunov(scene.numerics, report);
   if (const std::string& target = scene.fragments.target; !target.empty() && !names.contains(target))

@@ -36,6 +36,11 @@ void describe(Describer& d, Body& b) {
   d.number("pressure", b.pressure, "Pa", non_negative, "of a gas at the start; sets its specific energy");
   d.number("specific_energy", b.specific_energy, "J/kg", any_number, "at the start, where no pressure is given");
   d.number("spacing_factor", b.spacing_factor, "1", positive, "particle spacing relative to resolution.spacing");
+  d.choice("lattice", b.lattice,
+           "how its particles are laid; auto: as resolution.lattice says; shells: of round bodies, in shells between "
+           "their faces, so that no rows of a lattice show");
+  d.number("aspect", b.aspect, "1", at_least(1),
+           "of shells: edge of a particle along its shell over that across; with asph H begins so");
   d.text("weld", b.weld,
          "name of a body it is one piece with; \"none\"; \"auto\": a driven body holds those of its material");
   d.flag("driven", b.driven, "keeps its velocity whatever pulls at it, and never breaks: a grip or a piston");
@@ -169,6 +174,25 @@ void describe(Describer& d, InSitu& i) {
          [&](Pipeline& pipeline) { describe(d, pipeline); });
 }
 
+void describe(Describer& d, Probe& p) {
+  d.text("name", p.name, "of its table probe_<name>.csv and its figure").required = true;
+  d.choice("kind", p.kind,
+           "point: fixed in space; tracer: rides on the matter that was there at the start; velocimeter: a beam that "
+           "sees the first surface it meets");
+  d.triple("at", p.at, "m", "where it is at the start; of a velocimeter: where the beam begins").required = true;
+  d.text("body", p.body, "name of the body that it reads, whatever else is there; else any");
+  d.triple("direction", p.direction, "1",
+           "of the beam of a velocimeter, whose velocity counts towards its beginning; of the others adds the velocity "
+           "along it, of a tracer also the strain");
+  d.number("spot", p.spot, "m", positive, "velocimeter: radius of the beam; else resolution.spacing");
+  d.number("window", p.window, "s", non_negative, "values are means over so long before each row; 0: of that moment");
+  d.number("interval", p.interval, "s", positive,
+           "between rows, each at the first step from then on; else output.history_interval");
+  d.text("measured", p.measured,
+         "CSV file beside the scene, drawn into the figure: time [s], and columns named as those of the probe");
+  d.number("measured_delay", p.measured_delay, "s", any_number, "added to the times of the measured trace");
+}
+
 void describe(Describer& d, FragmentSettings& f) {
   d.flag("enabled", f.enabled, "find connected pieces during the run");
   d.choice("link", f.link, "unit of linking_length: mean particle size, or node spacing of H (auto: that in ASPH)");
@@ -226,6 +250,8 @@ void describe(Describer& d, Scene& s, const std::vector<SceneSection>& sections)
   d.section("insitu", "pictures while the run goes on", [&] { describe(d, s.insitu); });
   d.section("fragments", "connected pieces and their masses");
   describe(d, s.fragments);
+  d.list("probes", s.probes, false, "gauges and velocimeters, read while the run goes on",
+         [&](Probe& probe) { describe(d, probe); });
   d.section("output", "files");
   describe(d, s.output);
   d.section("run", "the machine");

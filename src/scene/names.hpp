@@ -27,8 +27,14 @@ constexpr auto enum_names(DistensionSolver) {
   return std::to_array<std::string_view>({"safe_newton", "bisection", "newton"});
 }
 constexpr auto enum_names(Lattice) { return std::to_array<std::string_view>({"cubic", "hexagonal", "glass"}); }
+constexpr auto enum_names(BodyLattice) {
+  return std::to_array<std::string_view>({"auto", "cubic", "hexagonal", "glass", "shells"});
+}
 constexpr auto enum_names(OnError) { return std::to_array<std::string_view>({"warn", "disable", "abort"}); }
 constexpr auto enum_names(Switch) { return std::to_array<std::string_view>({"auto", "false", "true"}); }
+constexpr auto enum_names(ProbeKind) {
+  return std::to_array<std::string_view>({"point", "tracer", "velocimeter"});
+}
 constexpr auto enum_names(FragmentLink) { return std::to_array<std::string_view>({"auto", "spacing", "support"}); }
 
 /// The word for one choice: name_of(Kernel::wendland_c2) is "wendland_c2".

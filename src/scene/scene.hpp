@@ -13,6 +13,7 @@
 #include "scene/boundary.hpp"
 #include "scene/choices.hpp"
 #include "scene/document.hpp"
+#include "scene/probe.hpp"
 #include "scene/section.hpp"
 
 namespace ejecta {
@@ -20,6 +21,7 @@ namespace ejecta {
 enum class SchemeKind { sph, asph, fvm, gsph, agsph, hybrid };
 enum class DensityMethod { continuity, summation };
 enum class Lattice { cubic, hexagonal, glass };
+enum class BodyLattice { of_scene, cubic, hexagonal, glass, shells };
 enum class OnError { warn, disable, abort };
 enum class Switch { automatic, off, on };
 enum class FragmentLink { automatic, spacing, support };
@@ -48,6 +50,8 @@ struct Body {
   double pressure = unset;           ///< Pa; gas bodies: sets the specific energy
   double specific_energy = 0;        ///< J/kg; used where pressure is not given
   double spacing_factor = 1;         ///< particle spacing relative to resolution.spacing
+  BodyLattice lattice = BodyLattice::of_scene;  ///< how its particles are laid
+  double aspect = 1;                 ///< of shells: edge of a particle along its shell over that across
   std::string origin;                ///< where the scene says so: "inputs/x.toml:14"
   std::string weld = "auto";         ///< body it is one piece with; none; auto: see describe.cpp
   bool driven = false;               ///< keeps its velocity whatever pulls at it, and never breaks
@@ -178,11 +182,15 @@ struct Scene {
   Contact contact;
   InSitu insitu;
   FragmentSettings fragments;
+  std::vector<Probe> probes;
   OutputSettings output;
   std::map<std::string, Document> materials;  ///< material name -> values that replace those of its file
   std::map<std::string, std::shared_ptr<SectionSettings>> sections;  ///< of packages, by name: those in the file
   std::optional<int> threads;                                        ///< not set: all cores
   std::uint64_t seed = 1;
+
+  /// Time between rows of the tables [s].
+  double row_interval() const { return is_set(output.history_interval) ? output.history_interval : time_end / 200; }
 };
 
 }  // namespace ejecta

@@ -70,6 +70,22 @@ void find_pipelines(Scene& scene, const Document& document, Problems& problems) 
   }
 }
 
+/// A measured trace is written relative to the scene file.
+void find_measured(Scene& scene, const Document& document, Problems& problems) {
+  namespace fs = std::filesystem;
+  for (std::size_t k = 0; k < scene.probes.size(); ++k) {
+    std::string& file = scene.probes[k].measured;
+    if (file.empty()) continue;
+    const fs::path beside = fs::path(scene.file).parent_path() / file;  // an absolute path stays itself
+    const std::string key = element_path("probes", k) + ".measured";
+    if (fs::is_regular_file(beside))
+      file = fs::absolute(beside).lexically_normal().string();
+    else
+      problems.add(document.origin(key), key,
+                   fmt::format("expected a CSV file, got \"{}\": no such file {}", file, beside.string()));
+  }
+}
+
 /// The numbers of a colour range stand in SI; texts carry a unit, which must be one of the field.
 void check_ranges(const Document& document, const std::map<std::string, std::string>& fields, Problems& problems) {
   std::vector<std::string> names;
@@ -133,6 +149,7 @@ Scene interpret(Document document, const std::vector<std::string>& overrides, co
     scene.numerics.density = DensityMethod::summation;
   if (!context.fields.empty()) check_ranges(document, context.fields, problems);
   find_pipelines(scene, document, problems);
+  find_measured(scene, document, problems);
   add_blast(scene, document, problems);
   check_scene(scene, document, problems);
   problems.throw_if_any();

@@ -7,6 +7,7 @@
 
 #include "base/errors.hpp"
 #include "base/random.hpp"
+#include "sph/shells.hpp"
 
 namespace ejecta {
 
@@ -32,21 +33,43 @@ std::vector<Formula> compile(const std::vector<std::string>& texts) {
   return std::vector<Formula>(texts.begin(), texts.end());
 }
 
+/// The points of a body, in shells or on the lattice of the scene unless it has its own.
+template <int Dim>
+PointCloud<Dim> points_of(const Scene& scene, const Body& body) {
+  const double spacing = scene.spacing * body.spacing_factor;
+  if (body.lattice == BodyLattice::shells)
+    return lay_shells<Dim>(body, spacing, scene.boundary.any(mirrors), scene.seed);
+  const Lattice lattice = body.lattice == BodyLattice::of_scene     ? scene.lattice
+                          : body.lattice == BodyLattice::cubic     ? Lattice::cubic
+                          : body.lattice == BodyLattice::hexagonal ? Lattice::hexagonal
+                                                                   : Lattice::glass;
+  return fill<Dim>(body, spacing, lattice, scene.seed);
+}
+
+/// Of a cell of a shell whose edges along it are `aspect` times that across.
+template <int Dim>
+Mat<Dim> shape_of(const ShellCell<Dim>& cell, double aspect) {
+  const double along = std::pow(aspect, 1.0 / Dim);  // over the edge of a cube of equal volume
+  const Mat<Dim> across = cell.normal * cell.normal.transpose();
+  return across * aspect * aspect / (along * along) + (Mat<Dim>::Identity() - across) / (along * along);
+}
+
 /// Where the particles of a body stand: the lattice cut by the shape and the boundary box, then moved.
 template <int Dim>
 std::vector<Placement<Dim>> fill_body(const Scene& scene, std::size_t b, const Material& material, int number) {
   const Body& body = scene.bodies[b];
-  const double spacing = scene.spacing * body.spacing_factor;
-  const PointCloud<Dim> cloud = fill<Dim>(body, spacing, scene.lattice, scene.seed);
+  const PointCloud<Dim> cloud = points_of<Dim>(scene, body);
   const std::vector<Formula> displacement = compile(body.profile.displacement);
   const std::vector<Formula> density =
       body.profile.density.empty() ? std::vector<Formula>{} : compile({body.profile.density});
   const double uniform = is_set(body.density) ? body.density : material.bulk_density();
   std::vector<Placement<Dim>> placements;
-  for (const Vec<Dim>& site : cloud.points) {
+  for (std::size_t k = 0; k < cloud.points.size(); ++k) {
+    const Vec<Dim>& site = cloud.points[k];
     if (!within<Dim>(scene.boundary, site)) continue;
-    const double width = std::pow(cloud.volume, 1.0 / Dim);
-    Placement<Dim> s{site, site, cloud.volume, width, uniform, static_cast<int>(b), number};
+    const double width = std::pow(cloud.volume_of(k), 1.0 / Dim);
+    Placement<Dim> s{site, site, cloud.volume_of(k), width, uniform, static_cast<int>(b), number};
+    if (!cloud.cells.empty()) s.shape = shape_of(cloud.cells[k], body.aspect);
     for (int a = 0; a < Dim; ++a) {
       if (body.jitter > 0)
         s.x[a] +=

@@ -16,6 +16,7 @@ struct Placement {
   double spacing;    ///< edge of a cube of that volume [m]
   double density;    ///< pores included [kg/m^3]
   int body, material;
+  Mat<Dim> shape = Mat<Dim>::Identity();  ///< of its cell: the metric whose unit ball has it as extent, of determinant 1
 };
 
 /// All bodies filled, those of one material together: the lattice cut by shape and boundary box, then moved by jitter

@@ -109,7 +109,8 @@ void fill_columns(Sph<Dim>& sph, const std::vector<Placement<Dim>>& placements) 
     p.column(Field::specific_energy)[i] = initial_energy(body, material, s.density);
     p.column(Field::smoothing_length)[i] = scene.numerics.nodes_per_h * s.spacing;
     if (p.has(Field::smoothing_metric))
-      p.set_symmetric(Field::smoothing_metric, i, round_metric<Dim>(scene.numerics.nodes_per_h * s.spacing));
+      p.set_symmetric(Field::smoothing_metric, i,
+                      s.shape / std::pow(scene.numerics.nodes_per_h * s.spacing, 2));
     p.label(Label::id)[i] = static_cast<std::int32_t>(i);
     p.label(Label::body)[i] = s.body;
     p.label(Label::material)[i] = s.material;

@@ -8,10 +8,24 @@
 
 namespace ejecta {
 
+/// What of a shell belongs to a particle.
+template <int Dim>
+struct ShellCell {
+  double volume;    ///< m^3; m^2 in plane strain
+  Vec<Dim> normal;  ///< of the shell
+};
+
 template <int Dim>
 struct PointCloud {
-  std::vector<Vec<Dim>> points;  ///< m
-  double volume = 0;             ///< of one point's cell [m^3; m^2 in plane strain]
+  std::vector<Vec<Dim>> points;       ///< m
+  double volume = 0;                  ///< of one point's cell [m^3; m^2 in plane strain]; those of shells have their own
+  std::vector<ShellCell<Dim>> cells;  ///< of shells, one a point
+
+  void add(const Vec<Dim>& point, const ShellCell<Dim>& cell) {
+    points.push_back(point);
+    cells.push_back(cell);
+  }
+  double volume_of(std::size_t point) const { return cells.empty() ? volume : cells[point].volume; }
 };
 
 /// Particles of a body at about the given spacing [m] (edge of a cube of equal volume). The volumes of all points add
