@@ -92,6 +92,7 @@ plot 'figures/compaction.csv' using ($3 == 0 ? mpa($1) : NaN):2 with points ls 1
 std::optional<std::string> fragment_distribution(const fs::path& run, const FigureSettings& settings) {
   if (!fs::exists(run / "fragment_distribution.csv") || read_csv(run / "fragment_distribution.csv").rows.empty())
     return {};
+  const bool measured = fs::exists(run / "fragments_measured.csv");
   std::string script = preamble("fragment_distribution", settings.title, "cumulative fragment mass distribution");
   script += "set xlabel " +
             quoted("mass m of " + settings.fragment_target + " in a fragment / mass of " + settings.fragment_target) +
@@ -114,9 +115,49 @@ set label 'resolution limit' at limit, graph 0.03 rotate by 90 offset 0.9,0 text
                           settings.resolution_limit);
   return script + R"(set xrange [low:high]
 set yrange [0.8:10<*]
-set key off
-plot 'fragment_distribution.csv' using 2:3 with steps ls 1, '' using 2:3 with points ls 1 ps 0.9
-)";
+)" + (measured ? R"(stats 'fragment_distribution.csv' using ($1 / $2) nooutput
+whole = STATS_mean
+set key top right
+)" : "set key off\n") + R"(plot 'fragment_distribution.csv' using 2:3 with steps ls 1 title 'computed', '' using 2:3 with points ls 1 ps 0.9 notitle)" +
+         (measured ? R"(, 'fragments_measured.csv' using ($1 / whole):2 with steps ls 2 title 'caught', '' using ($1 / whole):2 with points ls 2 ps 0.9 notitle)"
+                   : "") + "\n";
+}
+
+/// Mass in fragments by their mass, half a decade a bar.
+std::optional<std::string> fragment_histogram(const fs::path& run, const FigureSettings& settings) {
+  if (!fs::exists(run / "fragments.csv")) return {};
+  const CsvTable table = read_csv(run / "fragments.csv");
+  const std::size_t share = table.find("mass fraction");
+  if (share == CsvTable::npos || table.rows.size() < 2) return {};  // the last row is dust
+  const std::string& dust = table.rows.back()[share];
+  const bool measured = fs::exists(run / "fragments_measured.csv") &&
+                        !read_csv(run / "fragment_distribution.csv").rows.empty();
+  std::string script = preamble("fragment_histogram", settings.title, "mass in fragments by their mass");
+  script += "set xlabel " +
+            quoted("mass of " + settings.fragment_target + " in a fragment / mass of " + settings.fragment_target) +
+            " noenhanced\nset ylabel " + quoted("share of the mass of " + settings.fragment_target + " [%]") + " noenhanced\n";
+  script += fmt::format(R"(set label 1 sprintf('dust: %.3g %%', 100 * {0}) at graph 0.02, graph 0.95
+set logscale x
+set format x '10^{{%L}}'
+set yrange [0:*]
+set style fill solid 0.5
+set key {1}
+width = 0.5
+bin(m) = m > 0 ? 10**(width * (floor(log10(m) / width) + 0.5)) : NaN
+)",
+                        dust.empty() ? "0" : dust, measured ? "top center" : "off");
+  if (measured)
+    script += "stats 'fragment_distribution.csv' using ($1 / $2) nooutput\nwhole = STATS_mean\n";
+  const std::string columns = fmt::format("(bin(${0})):(100 * ${0})", share + 1);
+  script += fmt::format(
+      "set table $computed\nplot 'fragments.csv' every ::0::{} using {} smooth frequency\nunset table\n",
+      table.rows.size() - 2, columns);
+  if (measured)
+    script += "set table $caught\nplot 'fragments_measured.csv' using (bin($1 / whole)):(100 * $1 / whole) smooth frequency\nunset table\n";
+  script += "unset datafile\nset datafile separator whitespace\n";
+  script += "plot $computed using 1:2:($1 / 10**(0.5 * width)):($1 * 10**(0.5 * width)):(0):2 with boxxyerror ls 1 title 'computed'";
+  if (measured) script += ", $caught using 1:2:($1 / 10**(0.2 * width)):($1 * 10**(0.2 * width)):(0):2 with boxxyerror ls 2 title 'caught'";
+  return script + "\n";
 }
 
 std::optional<std::string> largest_fragment(const fs::path& run, const FigureSettings& settings) {
@@ -216,6 +257,7 @@ std::vector<Figure> make_figures(const fs::path& run_folder, const FigureSetting
   };
   std::vector<Plot> plots{{"compaction", [&] { return compaction(run_folder, settings); }},
                           {"fragment_distribution", [&] { return fragment_distribution(run_folder, settings); }},
+                          {"fragment_histogram", [&] { return fragment_histogram(run_folder, settings); }},
                           {"largest_fragment", [&] { return largest_fragment(run_folder, settings); }},
                           {"energy", [&] { return energy(run_folder, settings); }}};
   for (const ProbeFigure& p : settings.probes)

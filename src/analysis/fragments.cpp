@@ -66,6 +66,10 @@ void add_shape(Fragment& fragment, const SecondMoments& moments, int dimension) 
     const double second = std::max(0.0, extent.eigenvalues()[2 - a]) + moments.inner;
     fragment.semi_axes[a] = a < dimension ? std::sqrt(ratio * second / fragment.carried.mass) : 0.0;
   }
+  fragment.long_axis = extent.eigenvectors().col(2);
+  Eigen::Index largest;
+  fragment.long_axis.cwiseAbs().maxCoeff(&largest);
+  if (fragment.long_axis[largest] < 0) fragment.long_axis *= -1;
 }
 
 }  // namespace

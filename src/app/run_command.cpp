@@ -20,6 +20,7 @@
 #include "observe/checkpoints.hpp"
 #include "observe/columns.hpp"
 #include "observe/frames.hpp"
+#include "observe/measured.hpp"
 #include "observe/outputs.hpp"
 #include "observe/probes.hpp"
 #include "observe/shocks.hpp"
@@ -113,6 +114,9 @@ void conclude(const Simulation& sim, const Frames& frames, const Job& job, Outpu
     write("fragments.csv", [&](const fs::path& file) { write_fragments(file, *frames.fragments(), context); });
     write("fragment_distribution.csv",
           [&](const fs::path& file) { write_fragment_distribution(file, *frames.fragments(), context); });
+    if (const std::string& measured = sim.scene.fragments.measured; !measured.empty())
+      write("fragments_measured.csv",
+            [&](const fs::path& file) { write_measured_fragments(file, measured_masses(measured)); });
     with_particles(sim, [&](const auto& sph) {
       for (const FragmentSensitivity& s : fragment_sensitivity(fragment_input(sph), sph.scene.fragments))
         spdlog::info("fragments at linking length {:.2f}: {}, largest {:.2f} %, dust {:.1f} % of the {}",
@@ -173,6 +177,7 @@ int run(const Job& job) {
   Simulation sim = set_up_simulation(job.scene, job.materials.list);
   if (checkpoint) restore(sim, *checkpoint);
   const std::vector<std::string> odd_probes = place_probes(sim);
+  if (!job.scene.fragments.measured.empty()) measured_masses(job.scene.fragments.measured);  // or say what is wrong now
   prepare_folder(job);
   for (const std::string& odd : odd_probes) spdlog::warn("{}", odd);
   if (!lock.left_by().empty()) spdlog::info("{} was killed here before", lock.left_by());

@@ -34,11 +34,11 @@ const std::array written{
     Written{"lineouts", {"lineout_#.csv"}},
     Written{"images", {"data.csv", "*_#.png", ".room"}},
     Written{"figures",
-            {"compaction.*", "crush_curve.csv", "fragment_distribution.*", "largest_fragment.*", "energy.*",
+            {"compaction.*", "crush_curve.csv", "fragment_distribution.*", "fragment_histogram.*", "largest_fragment.*", "energy.*",
              "probe_*.png", "probe_*.gp"}},
     Written{"",
             {"resolved.toml", "run.log", "insitu.log", "history.csv", "timers.csv", "fragments.csv", "shock.csv",
-             "fragment_distribution.csv", "largest_fragment.csv", "summary.json", "movie_*.mp4", "probe_*.csv", "control", "control.#",
+             "fragment_distribution.csv", "fragments_measured.csv", "largest_fragment.csv", "summary.json", "movie_*.mp4", "probe_*.csv", "control", "control.#",
              "control.taken"}}};
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }

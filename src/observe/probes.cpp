@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/errors.hpp"
+#include "observe/measured.hpp"
 #include "scene/names.hpp"
 #include "scene/units.hpp"
 
@@ -81,8 +82,8 @@ double strain(Memory memory, const Probe& probe, const Mat<3>& gradient, double 
 
 std::vector<std::string> place_probes(Simulation& sim) {
   std::vector<std::string> problems, odd;
-  for (std::size_t k = 0; k < sim.scene.probes.size(); ++k) {
-    const Probe& probe = sim.scene.probes[k];
+  for (const Probe& probe : sim.scene.probes) {
+    if (!probe.measured.empty()) check_measured_trace(probe.measured, columns_of(sim, probe));
     const std::string key = fmt::format("{}: probes.{}.at", sim.scene.file, probe.name);
     const auto nearest = mount(sim, probe);
     const std::string where =

@@ -42,6 +42,7 @@ void write_fragments(const std::filesystem::path& file, const FragmentTable& tab
   for (const auto& [name, unit] : {std::pair{"centre", "m"}, {"velocity", "m/s"}, {"spin", "rad/s"}})
     for (const char* axis : {" x", " y", " z"}) columns.push_back({std::string(name) + axis, unit});
   for (const char* axis : {"a", "b", "c"}) columns.push_back({std::string("semi-axis ") + axis, "m"});
+  for (const char* axis : {"x", "y", "z"}) columns.push_back({std::string("long axis ") + axis, "1"});
   columns.insert(columns.end(), {{"mean damage", "1"}, {"mean distension", "1"}});
 
   std::vector<std::vector<CsvCell>> rows;
@@ -50,7 +51,7 @@ void write_fragments(const std::filesystem::path& file, const FragmentTable& tab
                              context.share(f.mass_of(context.target))};
     add_labels(row, f.mass_by_body, context.bodies.size());
     add_labels(row, f.mass_by_material, context.materials.size());
-    for (const Vec<3>* v : {&f.centre, &f.velocity, &f.spin, &f.semi_axes}) add_vector(row, *v);
+    for (const Vec<3>* v : {&f.centre, &f.velocity, &f.spin, &f.semi_axes, &f.long_axis}) add_vector(row, *v);
     row.insert(row.end(), {f.mean_damage, f.mean_distension});
     rows.push_back(std::move(row));
   }
@@ -82,6 +83,13 @@ void write_fragment_distribution(const std::filesystem::path& file, const Fragme
                                    {"mass fraction", context.unit()},
                                    {"fragments at least as heavy", "1"}},
             rows);
+}
+
+void write_measured_fragments(const std::filesystem::path& file, std::vector<double> masses) {
+  std::ranges::sort(masses, std::greater<>());
+  std::vector<std::vector<CsvCell>> rows;
+  for (std::size_t k = 0; k < masses.size(); ++k) rows.push_back({masses[k], static_cast<std::int64_t>(k + 1)});
+  write_csv(file, std::vector<CsvColumn>{{"mass", "kg"}, {"fragments at least as heavy", "1"}}, rows);
 }
 
 LargestFragmentHistory::LargestFragmentHistory(std::filesystem::path file, FragmentContext context,

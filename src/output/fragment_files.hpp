@@ -44,6 +44,9 @@ void write_fragments(const std::filesystem::path& file, const FragmentTable& tab
 void write_fragment_distribution(const std::filesystem::path& file, const FragmentTable& table,
                                  const FragmentContext& context);
 
+/// The same of measured masses [kg].
+void write_measured_fragments(const std::filesystem::path& file, std::vector<double> masses);
+
 /// largest_fragment.csv, one row a call: time, largest fragment of the target, fragments of all bodies, dust of the
 /// target; both masses over that of the target.
 class LargestFragmentHistory {

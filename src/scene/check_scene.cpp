@@ -244,6 +244,8 @@ void check_scene(const Scene& scene, const Document& document, Problems& problem
   }
   check_boundary(scene, report);
   check_godunov(scene.numerics, report);
+  if (!scene.fragments.measured.empty() && scene.dimension == 2)
+    report("fragments.measured", "expected none in 2D, where masses are per metre");
   if (const std::string& target = scene.fragments.target; !target.empty() && !names.contains(target))
     report("fragments.target",
            fmt::format("expected the name of a body ({}), got \"{}\"", fmt::join(names, ", "), target));

@@ -204,6 +204,8 @@ void describe(Describer& d, FragmentSettings& f) {
   d.text("target", f.target,
          "name of the body whose pieces and mass all fragment figures refer to; else the heaviest body at rest, or the "
          "slowest about the centre of mass");
+  d.text("measured", f.measured,
+         "CSV file beside the scene, drawn into the figures: mass [kg] of the fragments that were caught");
 }
 
 void describe(Describer& d, OutputSettings& o) {

@@ -154,6 +154,7 @@ struct FragmentSettings {
   double damage_threshold = 0.99;  ///< particles damaged beyond this link to nothing (dust)
   int min_particles = 8;           ///< smaller groups count as dust
   std::string target;              ///< body whose pieces count; empty: the body struck (sph/outset.hpp)
+  std::string measured;            ///< CSV file of measured masses, for the figure; absolute once read
 };
 
 struct OutputSettings {

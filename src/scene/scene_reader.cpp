@@ -70,20 +70,21 @@ void find_pipelines(Scene& scene, const Document& document, Problems& problems) 
   }
 }
 
-/// A measured trace is written relative to the scene file.
+/// Measured traces and lists are written relative to the scene file.
 void find_measured(Scene& scene, const Document& document, Problems& problems) {
   namespace fs = std::filesystem;
-  for (std::size_t k = 0; k < scene.probes.size(); ++k) {
-    std::string& file = scene.probes[k].measured;
-    if (file.empty()) continue;
+  const auto find = [&](std::string& file, const std::string& key) {
+    if (file.empty()) return;
     const fs::path beside = fs::path(scene.file).parent_path() / file;  // an absolute path stays itself
-    const std::string key = element_path("probes", k) + ".measured";
     if (fs::is_regular_file(beside))
       file = fs::absolute(beside).lexically_normal().string();
     else
       problems.add(document.origin(key), key,
                    fmt::format("expected a CSV file, got \"{}\": no such file {}", file, beside.string()));
-  }
+  };
+  for (std::size_t k = 0; k < scene.probes.size(); ++k)
+    find(scene.probes[k].measured, element_path("probes", k) + ".measured");
+  find(scene.fragments.measured, "fragments.measured");
 }
 
 /// The numbers of a colour range stand in SI; texts carry a unit, which must be one of the field.

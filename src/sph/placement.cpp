@@ -46,12 +46,12 @@ PointCloud<Dim> points_of(const Scene& scene, const Body& body) {
   return fill<Dim>(body, spacing, lattice, scene.seed);
 }
 
-/// Of a cell of a shell whose edges along it are `aspect` times that across.
+/// Of a cell of a shell, all of whose edges along it are alike.
 template <int Dim>
-Mat<Dim> shape_of(const ShellCell<Dim>& cell, double aspect) {
-  const double along = std::pow(aspect, 1.0 / Dim);  // over the edge of a cube of equal volume
+Mat<Dim> shape_of(const ShellCell<Dim>& cell) {
+  const double cube = std::pow(cell.volume, 1.0 / Dim), along = std::pow(cell.volume / cell.thickness, 1.0 / (Dim - 1));
   const Mat<Dim> across = cell.normal * cell.normal.transpose();
-  return across * aspect * aspect / (along * along) + (Mat<Dim>::Identity() - across) / (along * along);
+  return across * std::pow(cube / cell.thickness, 2) + (Mat<Dim>::Identity() - across) * std::pow(cube / along, 2);
 }
 
 /// Where the particles of a body stand: the lattice cut by the shape and the boundary box, then moved.
@@ -69,7 +69,7 @@ std::vector<Placement<Dim>> fill_body(const Scene& scene, std::size_t b, const M
     if (!within<Dim>(scene.boundary, site)) continue;
     const double width = std::pow(cloud.volume_of(k), 1.0 / Dim);
     Placement<Dim> s{site, site, cloud.volume_of(k), width, uniform, static_cast<int>(b), number};
-    if (!cloud.cells.empty()) s.shape = shape_of(cloud.cells[k], body.aspect);
+    if (!cloud.cells.empty()) s.shape = shape_of(cloud.cells[k]);
     for (int a = 0; a < Dim; ++a) {
       if (body.jitter > 0)
         s.x[a] +=

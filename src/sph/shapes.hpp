@@ -11,8 +11,9 @@ namespace ejecta {
 /// What of a shell belongs to a particle.
 template <int Dim>
 struct ShellCell {
-  double volume;    ///< m^3; m^2 in plane strain
-  Vec<Dim> normal;  ///< of the shell
+  double volume;     ///< m^3; m^2 in plane strain
+  double thickness;  ///< of the shell [m]
+  Vec<Dim> normal;   ///< of the shell
 };
 
 template <int Dim>

@@ -17,6 +17,8 @@ using std::numbers::pi;
 struct Shell {
   double inner, outer;  ///< m
 
+  double thickness() const { return outer - inner; }  ///< m
+
   /// Mean of the radius over a shell of a disc or cylinder (rank 2), or of a sphere (rank 3) [m].
   double centroid(int rank) const {
     return rank / (rank + 1.0) * (std::pow(outer, rank + 1) - std::pow(inner, rank + 1)) /
@@ -60,7 +62,7 @@ void lay_disc_shell(PointCloud<2>& cloud, const Shell& shell, double edge, Rings
   const int n = rings.count(2 * pi * 0.5 * (shell.inner + shell.outer) / edge, 3);
   for (const double angle : rings.angles(n)) {
     const Vec<2> normal(std::cos(angle), std::sin(angle));
-    cloud.add(radius * normal, {area / n, normal});
+    cloud.add(radius * normal, {area / n, shell.thickness(), normal});
   }
 }
 
@@ -75,7 +77,7 @@ void lay_cylinder_shell(PointCloud<3>& cloud, const Shell& shell, const Cylinder
     for (const double angle : rings.angles(n)) {
       const Vec<3> normal = std::cos(angle) * first + std::sin(angle) * second;
       cloud.add(radius * normal + ((row + 0.5) / rows - 0.5) * body.length * body.axis,
-                {area * body.length / rows / n, normal});
+                {area * body.length / rows / n, shell.thickness(), normal});
     }
 }
 
@@ -97,7 +99,7 @@ void lay_sphere_shell(PointCloud<3>& cloud, const Shell& shell, double edge, Rin
     const double height = 0.5 * (std::cos(low) + std::cos(high)), flat = std::sqrt(1 - height * height);
     for (const double angle : rings.angles(n)) {
       const Vec<3> normal = flat * (std::cos(angle) * first + std::sin(angle) * second) + height * pole;
-      cloud.add(radius * normal, {volume * share / n, normal});
+      cloud.add(radius * normal, {volume * share / n, shell.thickness(), normal});
     }
   }
 }
@@ -108,9 +110,10 @@ template <int Dim>
 PointCloud<Dim> lay_shells(const Body& body, double spacing, bool mirrored, std::uint64_t seed) {
   PointCloud<Dim> cloud;
   Rings rings(mirrored, seed);
-  const double edge = spacing * std::pow(body.aspect, 1.0 / Dim), thickness = edge / body.aspect;
   const double wall = body.radius - body.inner_radius;
-  const int shells = std::max(1, static_cast<int>(std::lround(wall / thickness)));
+  const double wanted = spacing * std::pow(body.aspect, 1.0 / Dim - 1);  // thickness of a shell
+  const int shells = std::max(1, static_cast<int>(std::lround(wall / wanted)));
+  const double edge = std::pow(std::pow(spacing, Dim) * shells / wall, 1.0 / (Dim - 1));
   for (int k = 0; k < shells; ++k) {
     const Shell shell{body.inner_radius + wall * k / shells, body.inner_radius + wall * (k + 1) / shells};
     if constexpr (Dim == 2)
