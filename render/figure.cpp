@@ -97,6 +97,7 @@ std::optional<std::string> fragment_distribution(const fs::path& run, const Figu
   script += "set xlabel " +
             quoted("mass m of " + settings.fragment_target + " in a fragment / mass of " + settings.fragment_target) +
             " noenhanced\n";
+  if (measured) script += "stats 'fragment_distribution.csv' using ($1 / $2) nooutput\nwhole = STATS_mean\n";
   script += R"(set logscale xy
 set format x '10^{%L}'
 set format y '10^{%L}'
@@ -115,10 +116,7 @@ set label 'resolution limit' at limit, graph 0.03 rotate by 90 offset 0.9,0 text
                           settings.resolution_limit);
   return script + R"(set xrange [low:high]
 set yrange [0.8:10<*]
-)" + (measured ? R"(stats 'fragment_distribution.csv' using ($1 / $2) nooutput
-whole = STATS_mean
-set key top right
-)" : "set key off\n") + R"(plot 'fragment_distribution.csv' using 2:3 with steps ls 1 title 'computed', '' using 2:3 with points ls 1 ps 0.9 notitle)" +
+)" + (measured ? "set key top right\n" : "set key off\n") + R"(plot 'fragment_distribution.csv' using 2:3 with steps ls 1 title 'computed', '' using 2:3 with points ls 1 ps 0.9 notitle)" +
          (measured ? R"(, 'fragments_measured.csv' using ($1 / whole):2 with steps ls 2 title 'caught', '' using ($1 / whole):2 with points ls 2 ps 0.9 notitle)"
                    : "") + "\n";
 }
@@ -136,6 +134,7 @@ std::optional<std::string> fragment_histogram(const fs::path& run, const FigureS
   script += "set xlabel " +
             quoted("mass of " + settings.fragment_target + " in a fragment / mass of " + settings.fragment_target) +
             " noenhanced\nset ylabel " + quoted("share of the mass of " + settings.fragment_target + " [%]") + " noenhanced\n";
+  if (measured) script += "stats 'fragment_distribution.csv' using ($1 / $2) nooutput\nwhole = STATS_mean\n";
   script += fmt::format(R"(set label 1 sprintf('dust: %.3g %%', 100 * {0}) at graph 0.02, graph 0.95
 set logscale x
 set format x '10^{{%L}}'
@@ -146,8 +145,6 @@ width = 0.5
 bin(m) = m > 0 ? 10**(width * (floor(log10(m) / width) + 0.5)) : NaN
 )",
                         dust.empty() ? "0" : dust, measured ? "top center" : "off");
-  if (measured)
-    script += "stats 'fragment_distribution.csv' using ($1 / $2) nooutput\nwhole = STATS_mean\n";
   const std::string columns = fmt::format("(bin(${0})):(100 * ${0})", share + 1);
   script += fmt::format(
       "set table $computed\nplot 'fragments.csv' every ::0::{} using {} smooth frequency\nunset table\n",
