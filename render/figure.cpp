@@ -135,25 +135,31 @@ std::optional<std::string> fragment_histogram(const fs::path& run, const FigureS
             quoted("mass of " + settings.fragment_target + " in a fragment / mass of " + settings.fragment_target) +
             " noenhanced\nset ylabel " + quoted("share of the mass of " + settings.fragment_target + " [%]") + " noenhanced\n";
   if (measured) script += "stats 'fragment_distribution.csv' using ($1 / $2) nooutput\nwhole = STATS_mean\n";
-  script += fmt::format(R"(set label 1 sprintf('dust: %.3g %%', 100 * {0}) at graph 0.02, graph 0.95
+  // Bars are counted before the axis is logarithmic, by the number of their half decade.
+  const std::string columns = fmt::format("(half_decade(${0})):(100 * ${0})", share + 1);
+  script += fmt::format(R"(half_decade(m) = m > 0 ? floor(2 * log10(m)) : NaN
+edge(k) = 10.0**(0.5 * k)
+set table $computed
+plot 'fragments.csv' every ::0::{} using {} smooth frequency
+unset table
+)",
+                        table.rows.size() - 2, columns);
+  if (measured)
+    script += R"(set table $caught
+plot 'fragments_measured.csv' using (half_decade($1 / whole)):(100 * $1 / whole) smooth frequency
+unset table
+)";
+  script += fmt::format(R"(unset datafile
+set label 1 sprintf('dust: %.3g %%', 100 * {0}) at graph 0.02, graph 0.95
 set logscale x
 set format x '10^{{%L}}'
 set yrange [0:*]
 set style fill solid 0.5
-set key {1}
-width = 0.5
-bin(m) = m > 0 ? 10**(width * (floor(log10(m) / width) + 0.5)) : NaN
-)",
-                        dust.empty() ? "0" : dust, measured ? "top center" : "off");
-  const std::string columns = fmt::format("(bin(${0})):(100 * ${0})", share + 1);
-  script += fmt::format(
-      "set table $computed\nplot 'fragments.csv' every ::0::{} using {} smooth frequency\nunset table\n",
-      table.rows.size() - 2, columns);
+set key bmargin center horizontal
+plot $computed using (edge($1 + 0.5)):2:(edge($1)):(edge($1 + 1)):(0):2 with boxxyerror ls 1 title 'computed')",
+                        dust.empty() ? "0" : dust);
   if (measured)
-    script += "set table $caught\nplot 'fragments_measured.csv' using (bin($1 / whole)):(100 * $1 / whole) smooth frequency\nunset table\n";
-  script += "unset datafile\nset datafile separator whitespace\n";
-  script += "plot $computed using 1:2:($1 / 10**(0.5 * width)):($1 * 10**(0.5 * width)):(0):2 with boxxyerror ls 1 title 'computed'";
-  if (measured) script += ", $caught using 1:2:($1 / 10**(0.2 * width)):($1 * 10**(0.2 * width)):(0):2 with boxxyerror ls 2 title 'caught'";
+    script += ", $caught using (edge($1 + 0.5)):2:(edge($1 + 0.2)):(edge($1 + 0.8)):(0):2 with boxxyerror ls 2 title 'caught'";
   return script + "\n";
 }
 

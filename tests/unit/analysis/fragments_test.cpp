@@ -39,6 +39,14 @@ TEST(Fragments, APieceRoundTheWholeBoxIsOne) {
   EXPECT_NEAR(table.fragments[0].semi_axes[0], std::sqrt(5.0 * 144 / 12), 1e-12);  // unwrapped somewhere, not folded
 }
 
+TEST(Fragments, ABarPointsAlongItself) {
+  Cloud bar;
+  for (int i = 0; i < 12; ++i) bar.add({-0.6 * i, 0.8 * i, 0}, Vec<3>::Zero());
+  const FragmentTable table = describe_groups(bar.input(), find_groups(bar.input(), {}));
+  ASSERT_EQ(table.fragments.size(), 1u);
+  EXPECT_NEAR((table.fragments[0].long_axis - Vec<3>(-0.6, 0.8, 0)).norm(), 0, 1e-12);
+}
+
 TEST(Fragments, PiecesOfTheTargetComeFirst) {
   Cloud cloud;
   cloud.add_ball({0, 0, 0}, 4, Vec<3>::Zero(), Vec<3>::Zero(), 0);

@@ -34,6 +34,15 @@ class FigureTest : public testing::Test {
     distribution << "mass [kg],mass fraction [1],fragments at least as heavy [1]\n";
     for (int n = 1; n < 200; ++n)
       distribution << 0.1 * 0.08 * std::pow(n, -1.4) << ',' << 0.08 * std::pow(n, -1.4) << ',' << n << '\n';
+    std::ofstream fragments(run / "fragments.csv"), caught(run / "fragments_measured.csv");
+    fragments << "number [1],mass fraction [mass of small_target]\n";
+    for (int n = 1; n < 200; ++n) fragments << n << ',' << 0.08 * std::pow(n, -1.4) << '\n';
+    fragments << "0,0.7\n";  // dust
+    caught << "mass [kg],fragments at least as heavy [1]\n0.02,1\n0.001,2\n";
+    std::ofstream probe(run / "probe_A.csv"), measured(run / "probe_A_measured.csv");
+    probe << "time [s],velocity [m/s],pressure [Pa]\n";
+    for (int k = 0; k <= 60; ++k) probe << k * 1e-6 << ',' << 200 * (1 - std::exp(-k / 9.0)) << ',' << 1e9 - 1e7 * k << '\n';
+    measured << "time [s],velocity [m/s]\n1e-6,100\n2e-6,180\n";
     std::ofstream largest(run / "largest_fragment.csv"), history(run / "history.csv");
     largest << "time [s],largest fragment mass fraction [1],fragments [1],dust mass fraction [1]\n";
     history << "time [s],limited by,kinetic energy [J],internal energy [J],total energy [J],energy error [1]\n";
@@ -53,8 +62,9 @@ TEST_F(FigureTest, EveryPlotIsDrawnAndNotBlank) {
   settings.title = "Nylon ball on pumice_3d";
   settings.fragment_target = "small_target";
   settings.resolution_limit = 8e-6;
+  settings.probes = {{"A", 1e-6}};
   const std::vector<Figure> figures = make_figures(run, settings);
-  ASSERT_EQ(figures.size(), 4u);
+  ASSERT_EQ(figures.size(), 6u);
   for (const Figure& figure : figures) {
     EXPECT_EQ(figure.problem, "") << figure.file;
     EXPECT_TRUE(fs::exists(fs::path(figure.file).replace_extension(".gp")));
@@ -76,7 +86,7 @@ TEST_F(FigureTest, WithoutGnuplotEachPlotSaysSo) {
   setenv("PATH", "/no_such_folder", 1);
   const std::vector<Figure> figures = make_figures(run, {});
   setenv("PATH", path.c_str(), 1);
-  ASSERT_EQ(figures.size(), 4u);
+  ASSERT_EQ(figures.size(), 5u);
   for (const Figure& figure : figures) EXPECT_EQ(figure.problem, "gnuplot is not installed");
 }
 
