@@ -7,8 +7,8 @@
 
 namespace ejecta {
 
-/// Masses of a measured list of fragments [kg]. Throws InputError if the file has no column "mass [kg]", or a cell of it
-/// is no number.
+/// Masses of a measured list of fragments [kg]. Throws InputError if the file has no column "mass [kg]", or a cell of
+/// it is no number.
 std::vector<double> measured_masses(const std::string& file);
 
 /// Throws InputError unless the file has a column "time [s]" and one of these, with its unit.

@@ -174,7 +174,9 @@ ProbeReading read_beam(const Sph<Dim>& sph, const Probe& probe) {
   const Vec<Dim> along = first_components<Dim>(probe.direction).normalized();
   const double spot = is_set(probe.spot) ? probe.spot : sph.scene.spacing;
   const auto body = label_of(sph, probe);
-  const auto size = [&](std::size_t i) { return std::pow(p.column(Field::mass)[i] / p.column(Field::density)[i], 1.0 / Dim); };
+  const auto size = [&](std::size_t i) {
+    return std::pow(p.column(Field::mass)[i] / p.column(Field::density)[i], 1.0 / Dim);
+  };
   std::vector<std::pair<double, std::size_t>> in_beam;  // front of a particle along the beam
   double first = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < p.size(); ++i) {
@@ -213,7 +215,8 @@ std::vector<CsvColumn> reading_columns(const Simulation& sim, const Probe& probe
   if (probe.kind == ProbeKind::velocimeter) return {{"velocity", "m/s"}, {"distance", "m"}};
   std::vector<CsvColumn> columns;
   with_particles(sim, [&]<int Dim>(const Sph<Dim>& sph) { columns = columns_of<Dim>(probe, &sph.particles); });
-  if (columns.empty()) columns = sim.scene.dimension == 2 ? columns_of<2>(probe, nullptr) : columns_of<3>(probe, nullptr);
+  if (columns.empty())
+    columns = sim.scene.dimension == 2 ? columns_of<2>(probe, nullptr) : columns_of<3>(probe, nullptr);
   return columns;
 }
 

@@ -18,17 +18,18 @@ struct Mount {
 std::optional<Mount> mount(const Simulation& sim, const Probe& probe);
 
 struct ProbeReading {
-  std::vector<double> values;           ///< SI, by column; NaN where there is nothing to read
-  Mat<3> gradient = Mat<3>::Zero();     ///< of the velocity [1/s]
+  std::vector<double> values;        ///< SI, by column; NaN where there is nothing to read
+  Mat<3> gradient = Mat<3>::Zero();  ///< of the velocity [1/s]
 };
 
 /// Values of a probe, by name and SI unit, the same ones during a run:
 ///  - velocimeter: velocity towards the beginning of the beam and distance to the surface from there. The surface is
 ///    what of the beam's particles is nearest, to a spacing; its velocity is their mean by mass;
-///  - others: density, pressure, velocity, specific energy, of solids Cauchy stress (tension positive) as the forces see
+///  - others: density, pressure, velocity, specific energy, of solids Cauchy stress (tension positive) as the forces
+///  see
 ///    it, damage and plastic strain; of a tracer its place. In matter made of particles they are those of a linear fit
-///    to the nearest body, weighted by a kernel (moving least squares, exact where fields are linear); on a grid those of
-///    the cell.
+///    to the nearest body, weighted by a kernel (moving least squares, exact where fields are linear); on a grid those
+///    of the cell.
 std::vector<CsvColumn> reading_columns(const Simulation& sim, const Probe& probe);
 
 /// `id`: of the particle that a tracer rides on.

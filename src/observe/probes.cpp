@@ -21,7 +21,8 @@ namespace fs = std::filesystem;
 /// Numbers of a probe that checkpoints keep.
 class Memory {
  public:
-  Memory(std::map<std::string, double>& notes, const Probe& probe) : notes_(notes), name_("probe " + probe.name + " ") {}
+  Memory(std::map<std::string, double>& notes, const Probe& probe)
+      : notes_(notes), name_("probe " + probe.name + " ") {}
   double& operator[](const std::string& what) { return notes_[name_ + what]; }
 
  private:
@@ -45,7 +46,8 @@ std::vector<double> values_of(const Simulation& sim, const Probe& probe, const P
   std::vector<double> values = reading.values;
   if (probe.kind == ProbeKind::velocimeter || !probe.directed()) return values;
   double along = 0;
-  for (int a = 0; a < sim.scene.dimension; ++a) along += direction(probe)[a] * reading.values[static_cast<std::size_t>(2 + a)];
+  for (int a = 0; a < sim.scene.dimension; ++a)
+    along += direction(probe)[a] * reading.values[static_cast<std::size_t>(2 + a)];
   values.push_back(along);
   return values;
 }

@@ -21,9 +21,9 @@ std::vector<std::string> place_probes(Simulation& sim);
 /// Of history, monitor and summary: what each probe reads at this moment.
 Quantities quantities_of_probes(const Simulation& sim);
 
-/// probe_<name>.csv: time, the columns of probe_reading.hpp, with a direction the velocity along it, and of a tracer the
-/// strain, length over length at the start minus 1 of a line of matter along it. Steps do not end for a row: it is taken
-/// at the first step from when it is due.
+/// probe_<name>.csv: time, the columns of probe_reading.hpp, with a direction the velocity along it, and of a tracer
+/// the strain, length over length at the start minus 1 of a line of matter along it. Steps do not end for a row: it is
+/// taken at the first step from when it is due.
 class Probes final : public Observer {
  public:
   /// Of probes that have been placed. Copies of measured traces are put beside the tables.

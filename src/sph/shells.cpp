@@ -66,7 +66,8 @@ void lay_disc_shell(PointCloud<2>& cloud, const Shell& shell, double edge, Rings
   }
 }
 
-void lay_cylinder_shell(PointCloud<3>& cloud, const Shell& shell, const CylinderShape& body, double edge, Rings& rings) {
+void lay_cylinder_shell(PointCloud<3>& cloud, const Shell& shell, const CylinderShape& body, double edge,
+                        Rings& rings) {
   const double area = pi * (shell.outer * shell.outer - shell.inner * shell.inner), radius = shell.centroid(2);
   const int n = rings.count(2 * pi * 0.5 * (shell.inner + shell.outer) / edge, 3);
   int rows = std::max(1, static_cast<int>(std::lround(body.length / edge)));
