@@ -29,4 +29,9 @@ void log_to_folder(const std::filesystem::path& folder, bool append) try {
   throw OutputError(folder / "run.log");
 }
 
+void say(const std::vector<Remark>& remarks) {
+  for (const Remark& remark : remarks)
+    spdlog::log(remark.worrying ? spdlog::level::warn : spdlog::level::info, "{}", remark.text);
+}
+
 }  // namespace ejecta

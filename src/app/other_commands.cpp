@@ -73,7 +73,10 @@ int check_command(const std::string& scene_file, const std::vector<std::string>&
   Simulation sim = set_up_simulation(scene, materials.list);
   for (const std::string& odd : place_probes(sim)) spdlog::warn("{}", odd);
   const std::chrono::duration<double> set_up_time = std::chrono::steady_clock::now() - start;
-  for (const auto& package : sim.packages) fmt::print("{}", package->outline());
+  for (const auto& package : sim.packages) {
+    fmt::print("{}", package->outline());
+    say(package->remarks_at_start());
+  }
   fmt::print("set-up\n");
   for (const auto& package : sim.packages) fmt::print("  {:<18} {}\n", package->name(), package->elements());
   if (sim.clock.time > 0)

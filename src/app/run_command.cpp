@@ -130,9 +130,7 @@ void conclude(const Simulation& sim, const Frames& frames, const Job& job, Outpu
                    pipeline.frames);
   if (frames.left_out() > 0)
     spdlog::warn("{} frames drawn, {} left out to hold insitu.max_share", frames.drawn(), frames.left_out());
-  for (const auto& package : sim.packages)
-    for (const Remark& remark : package->remarks())
-      spdlog::log(remark.worrying ? spdlog::level::warn : spdlog::level::info, "{}", remark.text);
+  for (const auto& package : sim.packages) say(package->remarks());
   FigureSettings figures;
   figures.title = sim.scene.title;
   if (!context.bodies.empty()) figures.fragment_target = context.bodies[context.target];
@@ -219,6 +217,7 @@ int run(const Job& job) {
     spdlog::info("{}: {} {}s in {}D, {} threads, {:.0f} bytes each", job.scene.name, package->elements(), package->element(),
                  job.scene.dimension, max_threads(),
                  static_cast<double>(package->bytes()) / static_cast<double>(package->elements()));
+  for (const auto& package : sim.packages) say(package->remarks_at_start());
   Ending ending;
   try {
     try {

@@ -12,14 +12,16 @@
 #include <variant>
 
 #include "material/equilibrium_air.hpp"
+#include "material/explosive.hpp"
 #include "material/ideal_gas.hpp"
+#include "material/jwl.hpp"
 #include "material/linear_eos.hpp"
 #include "material/mie_grueneisen.hpp"
 #include "material/tillotson.hpp"
 
 namespace ejecta {
 
-using Eos = std::variant<IdealGas, Tillotson, MieGrueneisen, LinearEos, EquilibriumAir>;
+using Eos = std::variant<IdealGas, Tillotson, MieGrueneisen, LinearEos, EquilibriumAir, Jwl>;
 
 /// Density of the unstressed, non-porous material [kg/m^3].
 inline double reference_density(const Eos& eos) {
@@ -50,6 +52,30 @@ template <class EosT>
 inline constexpr bool reacts = requires(const EosT& eos, double x) {
   eos.evaluate(x, x, x);
 };
+
+/// What the burn asks of an explosive: its explosive(). Nothing if the equation of state is of none.
+inline std::optional<Explosive> explosive_of(const Eos& eos) {
+  return std::visit(
+      [](const auto& e) -> std::optional<Explosive> {
+        if constexpr (requires { e.explosive(); })
+          return e.explosive();
+        else
+          return std::nullopt;
+      },
+      eos);
+}
+
+/// Specific energy of matter as it is made [J/kg]: its energy_at_rest(), else 0.
+inline double energy_at_rest(const Eos& eos) {
+  return std::visit(
+      [](const auto& e) -> double {
+        if constexpr (requires { e.energy_at_rest(); })
+          return e.energy_at_rest();
+        else
+          return 0;
+      },
+      eos);
+}
 
 /// Whether an equation of state knows the temperature: temperature_rise(rho, e) and melting_rise(rho), both above that
 /// at rest [K]; warms() and melts() say whether the constants for them are given.

@@ -24,6 +24,8 @@ struct Material {
   double bulk_density() const { return reference_density(eos) / (porosity ? porosity->initial_distension() : 1.0); }
   /// Whether it has no density of its own and fills all room that it is given.
   bool gas() const { return is_gas(eos); }
+  /// What a burn asks of it; nothing if it is no explosive.
+  std::optional<Explosive> explosive() const { return explosive_of(eos); }
   /// Whether it carries deviatoric stress.
   bool solid() const { return elastic.has_value(); }
   bool tensor_damage() const { return damage && damage->tensor; }

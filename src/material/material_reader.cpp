@@ -73,6 +73,9 @@ void check_use(const Scene& scene, const std::vector<Material>& materials, std::
           "numerics.density: expected continuity, got summation: {} is no gas, and a summed density falls off "
           "at free surfaces",
           body.material));
+    if (found->explosive() && scene.numerics.scheme != SchemeKind::sph && scene.numerics.scheme != SchemeKind::asph)
+      report(fmt::format("numerics.scheme: expected sph or asph, got {}: {} is an explosive, which burns as particles",
+                         name_of(scene.numerics.scheme), body.material));
     if (!body.profile.deviatoric_stress.empty() && !found->solid())
       report(fmt::format("profile.deviatoric_stress: only a solid can bear it, and {} is none", body.material));
     const double bulk = found->bulk_density();
@@ -128,12 +131,16 @@ Materials read_materials(const Scene& scene, const std::string& library) {
     }
   }
   check_use(scene, materials.list, problems);
+  if (problems.empty() &&
+      std::ranges::none_of(materials.list, [](const Material& m) { return m.explosive().has_value(); }))
+    for (const Detonator& detonator : scene.detonators)
+      problems.push_back(fmt::format("{}: detonators: no body is of an explosive", detonator.origin));
   if (!problems.empty()) throw InputError(problems);
   return materials;
 }
 
 double initial_energy(const Body& body, const Material& material, double density) {
-  if (!is_set(body.pressure)) return body.specific_energy;
+  if (!is_set(body.pressure)) return energy_at_rest(material.eos) + body.specific_energy;
   return specific_energy_at(material.eos, density, body.pressure).value();
 }
 

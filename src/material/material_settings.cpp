@@ -20,11 +20,12 @@ struct Named {
   Model initial;
 };
 
-const std::array<Named<Eos>, 5> eos_models{{{"ideal_gas", IdealGas{}},
+const std::array<Named<Eos>, 6> eos_models{{{"ideal_gas", IdealGas{}},
                                             {"tillotson", Tillotson{}},
                                             {"mie_grueneisen", MieGrueneisen{}},
                                             {"linear", LinearEos{}},
-                                            {"equilibrium_air", EquilibriumAir{}}}};
+                                            {"equilibrium_air", EquilibriumAir{}},
+                                            {"jwl", Jwl{}}}};
 const std::array<Named<Strength>, 6> strength_models{{{"von_mises", VonMises{}},
                                                       {"drucker_prager", DruckerPrager{}},
                                                       {"lundborg", Lundborg{}},
@@ -129,6 +130,33 @@ void describe(Describer& d, LinearEos& l) {
 
 void describe(Describer& d, EquilibriumAir& a) {
   constant(d, "density", a.rho0, "kg/m^3", positive, "of a body whose density the scene does not give");
+}
+
+void describe(Describer& d, Jwl& j) {
+  constant(d, "density", j.rho0, "kg/m^3", positive, "of the explosive");
+  constant(d, "A", j.A, "Pa", positive, "of A (1 - omega/(R1 V)) exp(-R1 V), V = density at the start over density now");
+  constant(d, "B", j.B, "Pa", any_number, "of the same with R2");
+  constant(d, "R1", j.R1, "1", positive, "decay of A with the volume");
+  constant(d, "R2", j.R2, "1", positive, "decay of B with the volume");
+  constant(d, "omega", j.omega, "1", positive, "Grueneisen parameter of the products");
+  constant(d, "E0", j.E0, "J/m^3", positive, "energy that is set free, per volume of explosive");
+  constant(d, "detonation_speed", j.detonation_speed, "m/s", positive,
+           "measured; within 1 % of what the constants above give (Chapman & Jouguet)");
+  d.number("cj_pressure", j.cj_pressure, "Pa", positive, "measured or published; within 5 % of the same, if given");
+}
+void check(const Jwl& j, const Report& report) {
+  if (std::isnan(j.rho0 + j.A + j.B + j.R1 + j.R2 + j.omega + j.E0)) return;
+  const ChapmanJouguet cj = j.chapman_jouguet();
+  const auto compare = [&](const char* key, double given, double found, double within, const char* unit) {
+    if (is_set(given) && !(std::abs(given / found - 1) <= within))
+      report(fmt::format("eos.{}", key),
+             fmt::format("expected {} within {:.3g} %, which is what the constants of the products give (Chapman & "
+                         "Jouguet: D {}, {}, V {:.4g}), got {}",
+                         format_quantity(found, unit), 100 * within, format_quantity(cj.speed, "m/s"),
+                         format_quantity(cj.pressure, "Pa"), cj.volume, format_quantity(given, unit)));
+  };
+  compare("detonation_speed", j.detonation_speed, cj.speed, 0.01, "m/s");
+  compare("cj_pressure", j.cj_pressure, cj.pressure, 0.05, "Pa");
 }
 
 constexpr Limits below_right_angle{.min = 0, .max = std::numbers::pi / 2};

@@ -70,6 +70,8 @@ class Package {
   /// What it does, for `ejecta check`: lines of text.
   virtual std::string outline() const { return ""; }
   virtual std::vector<Remark> remarks() const { return {}; }
+  /// The same of what has been set up, to be said before the run.
+  virtual std::vector<Remark> remarks_at_start() const { return {}; }
   /// Channels that it has, by name.
   virtual std::vector<std::string> channel_names() const { return {}; }
   /// Live fields for the in-situ pipelines, of the channels that are asked for; the views are good until the next step.

@@ -68,6 +68,9 @@ const std::array<FieldInfo, field_count>& field_catalogue() {
       {Field::density_low, "density_low", scalar, "kg/m^3", state, "lowest bulk density so far"},
       {Field::initial_position, "initial_position", vector, "m", constant, "position at the start"},
       {Field::wall, "wall", scalar, "1", constant, "1 for what gas sees of a solid: such particles do not feel each other"},
+      {Field::lighting_time, "lighting_time", scalar, "s", constant,
+       "when the detonation reaches an explosive; infinite where no path leads to it, 0 in other matter"},
+      {Field::burnt, "burnt", scalar, "1", state, "burnt fraction of an explosive, never falling"},
   }};
   return catalogue;
 }

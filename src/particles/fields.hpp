@@ -52,6 +52,8 @@ enum class Field {
   density_low,
   initial_position,
   wall,
+  lighting_time,
+  burnt,
   count
 };
 inline constexpr int field_count = static_cast<int>(Field::count);

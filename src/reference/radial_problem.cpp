@@ -35,6 +35,8 @@ const Material& only_material(const Scene& scene, const std::vector<Material>& m
     refuse(scene, "bodies",
            fmt::format("expected a gas or another fluid for a one-dimensional reference, got {}, which has {}",
                        material.name, material.solid() ? "strength" : "pores"));
+  if (material.explosive())
+    refuse(scene, "bodies", fmt::format("expected matter that does not burn, got {}", material.name));
   return material;
 }
 

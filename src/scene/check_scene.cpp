@@ -101,6 +101,22 @@ void check_profile(const Scene& scene, const Body& body, const std::string& path
     report(path + ".pressure", "expected either pressure or specific_energy, got both");
 }
 
+void check_detonator(const Scene& scene, const Detonator& detonator, const std::string& path, const Report& report) {
+  const auto check_key = [&](const char* key, const Triple& value, bool needed) {
+    if (needed != is_set(value[0]))
+      report(path + "." + key,
+             fmt::format(fmt::runtime(needed ? "missing: a {} needs it" : "a {} has none"), name_of(detonator.shape)));
+    if (scene.dimension == 2 && is_set(value[0]) && value[2] != 0)
+      report(path + "." + key, "expected no z component in 2D");
+  };
+  check_key("position", detonator.position, true);
+  check_key("end", detonator.end, detonator.shape == DetonatorShape::line);
+  check_key("normal", detonator.normal, detonator.shape == DetonatorShape::plane);
+  if (detonator.normal == Triple{0, 0, 0}) report(path + ".normal", "expected a direction, got [0, 0, 0]");
+  if (is_set(detonator.end[0]) && detonator.end == detonator.position)
+    report(path + ".end", "expected another place than position");
+}
+
 /// A body that stands for [charge] or [gas].
 void check_implied(const Scene& scene, const Body& body, const Report& report) {
   const bool grid = scene.numerics.on_grid();
@@ -242,6 +258,8 @@ void check_scene(const Scene& scene, const Document& document, Problems& problem
       report(path + ".name", fmt::format("expected a name of its own, got \"{}\" again", scene.probes[k].name));
     check_probe(scene, scene.probes[k], path, report);
   }
+  for (std::size_t k = 0; k < scene.detonators.size(); ++k)
+    check_detonator(scene, scene.detonators[k], element_path("detonators", k), report);
   check_boundary(scene, report);
   check_godunov(scene.numerics, report);
   if (!scene.fragments.measured.empty() && scene.dimension == 2)

@@ -51,6 +51,15 @@ void describe(Describer& d, Body& b) {
   describe(d, b.profile);
 }
 
+void describe(Describer& d, Detonator& t) {
+  d.choice("shape", t.shape, "what is lit at once; in plane strain a point stands for a line along z");
+  d.triple("position", t.position, "m", "the point, one end of the line, or a point of the plane").required = true;
+  d.triple("end", t.end, "m", "the other end of a line");
+  d.triple("normal", t.normal, "1", "of a plane");
+  d.number("time", t.time, "s", non_negative, "when it goes off");
+  d.origin(t.origin);
+}
+
 void describe(Describer& d, Charge& c) {
   d.triple("center", c.center, "m", "its centre");
   d.number("radius", c.radius, "m", positive, "of the charge").required = true;
@@ -237,6 +246,8 @@ void describe(Describer& d, Scene& s, const std::vector<SceneSection>& sections)
   d.integer("max_steps", s.max_steps, non_negative, "ends the run earlier; 0: no limit").zero_is_unset = true;
   const bool blast = s.charge || s.gas;
   d.list("bodies", s.bodies, !blast, "one body, filled at set-up", [&](Body& body) { describe(d, body); });
+  d.list("detonators", s.detonators, false, "lights what it touches of the explosives",
+         [&](Detonator& detonator) { describe(d, detonator); });
   if (s.charge) d.section("charge", "a ball (in 2D a disc) of hot dense gas: its blast is followed", [&] { describe(d, *s.charge); });
   if (s.gas) d.section("gas", "fills the boundary box wherever no body is", [&] { describe(d, *s.gas); });
   d.section("numerics", "how the equations are solved");

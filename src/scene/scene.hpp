@@ -12,6 +12,7 @@
 #include "scene/body_shape.hpp"
 #include "scene/boundary.hpp"
 #include "scene/choices.hpp"
+#include "scene/detonator.hpp"
 #include "scene/document.hpp"
 #include "scene/probe.hpp"
 #include "scene/section.hpp"
@@ -176,6 +177,7 @@ struct Scene {
   double time_end = unset;                ///< s
   std::optional<std::int64_t> max_steps;  ///< not set: no limit
   std::vector<Body> bodies;
+  std::vector<Detonator> detonators;
   std::optional<Charge> charge;  ///< among the bodies too
   std::optional<Gas> gas;        ///< the last of the bodies too
   Numerics numerics;

@@ -29,6 +29,7 @@ void equation_of_state(Sph<Dim>& sph) {
     sph.unconverged += equation_of_state(sph.materials[m],
                                          {.density = of(Field::density),
                                           .specific_energy = of(Field::specific_energy),
+                                          .reacted = of(Field::burnt),
                                           .pressure = of(Field::pressure),
                                           .sound_speed = of(Field::sound_speed),
                                           .distension = of(Field::distension),

@@ -36,6 +36,13 @@ Outset outset(const Particles<Dim>& p, const Scene& scene, const std::vector<Mat
     start.speed = std::max(start.speed, v.norm());
     relative_speed = std::max(relative_speed, (v - momentum / mass).norm());
   }
+  for (const Material& material : materials)
+    if (const auto explosive = material.explosive()) {
+      const double density = material.bulk_density(), D = explosive->detonation_speed, s = explosive->cj_compression;
+      start.speed = std::max(start.speed, D * s);
+      start.density = std::max(start.density, density / (1 - s));
+      start.pressure = std::max(start.pressure, density * D * D * s);
+    }
   for (std::size_t i = 0; i < p.size(); ++i) {
     const double density = p.column(Field::density)[i], u = relative_speed;
     const bool gas = material_of(i).gas();

@@ -15,6 +15,7 @@
 #include "schemes/pair_records.hpp"
 #include "sph/assemble.hpp"
 #include "sph/criteria.hpp"
+#include "sph/detonation.hpp"
 #include "sph/diagnostics.hpp"
 #include "sph/pieces.hpp"
 #include "sph/stages.hpp"
@@ -72,7 +73,9 @@ void apply_profiles(Sph<Dim>& sph, const std::vector<Placement<Dim>>& placements
       }
     };
     evaluate("specific_energy", profile.specific_energy,
-             [&](std::size_t i, double value) { p.column(Field::specific_energy)[i] = value; });
+             [&](std::size_t i, double value) {
+               p.column(Field::specific_energy)[i] = energy_at_rest(material.eos) + value;
+             });
     evaluate("pressure", profile.pressure, [&](std::size_t i, double value) {
       const double density = p.column(Field::density)[i];
       p.column(Field::specific_energy)[i] = specific_energy_at(material.eos, density, value).value();
@@ -177,6 +180,9 @@ std::unique_ptr<Sph<Dim>> set_up(const Scene& scene, const std::vector<Material>
                                             number_materials(scene, materials));
   return assemble<Dim>(scene, materials, choose_stages<Dim>(scene, materials), placements, [&](Sph<Dim>& sph) {
     apply_profiles(sph, placements);
+    if (sph.particles.has(Field::lighting_time))
+      std::ranges::copy(lighting_times<Dim>(scene, materials, placements),
+                        sph.particles.column(Field::lighting_time).begin());
     if (blast) lay_blast(sph, *blast, placements);
   });
 }

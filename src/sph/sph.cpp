@@ -9,6 +9,7 @@
 #include "base/parallel.hpp"
 #include "model/find_blast.hpp"
 #include "schemes/kernels.hpp"
+#include "sph/burn.hpp"
 #include "sph/diagnostics.hpp"
 #include "sph/integrator.hpp"
 
@@ -78,8 +79,14 @@ Quantities Sph<Dim>::quantities() const {
     const double all = parallel_sum<double>(p.size(), [&](std::size_t i) { return mass[i]; });
     list.push_back({"damaged mass fraction", "1", broken / all, "share of the mass with damage above 0.99", true});
   }
+  if (p.has(Field::burnt)) std::ranges::move(burn_quantities(*this), std::back_inserter(list));
   if (scene.charge && scene.gas) std::ranges::move(quantities_of(blast()), std::back_inserter(list));
   return list;
+}
+
+template <int Dim>
+std::vector<Remark> Sph<Dim>::remarks_at_start() const {
+  return particles.has(Field::lighting_time) ? unlit(*this) : std::vector<Remark>{};
 }
 
 template <int Dim>

@@ -70,6 +70,7 @@ struct Sph final : Package {
   Quantities quantities() const override;
   std::string outline() const override;
   std::vector<Remark> remarks() const override;
+  std::vector<Remark> remarks_at_start() const override;
   std::string describe(std::size_t particle) const override;
   Whereabouts whereabouts(std::size_t particle) const override;
   std::optional<BlastFront> blast() const override;

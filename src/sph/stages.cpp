@@ -6,9 +6,9 @@ namespace ejecta {
 
 namespace {
 
-/// What a switch means; automatic: yes unless all is gas.
+/// What a switch means; automatic: yes unless all is gas that has never been condensed.
 bool holds(Switch choice, const std::vector<Material>& materials) {
-  const auto gas = [](const Material& m) { return m.gas(); };
+  const auto gas = [](const Material& m) { return m.gas() && !m.explosive(); };
   return choice == Switch::on || (choice == Switch::automatic && !std::all_of(materials.begin(), materials.end(), gas));
 }
 
@@ -45,6 +45,7 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
   const bool coupled = any([](const Material& m) { return m.cuts_pairs(); });
   const bool dealt = any([](const Material& m) { return m.damage && m.damage->growth == CrackLaw::benz_asphaug; });
   const bool warms = any([](const Material& m) { return m.yield_needs_temperature(); });
+  const bool burns = any([](const Material& m) { return m.explosive().has_value(); });
   const bool driven = std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) { return b.driven; });
   const bool continuity = scene.numerics.density == DensityMethod::continuity;
   const bool balsara = holds(scene.numerics.balsara, materials);
@@ -76,7 +77,8 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
   if (!continuity)
     add("density", {position, smoothing_length, mass}, {density, zeroth_moment, smoothing_length},
         summation_density<Dim>);
-  add("equation of state", Fields{density, specific_energy}.with(porous, {distension}),
+  if (burns) add("burn", {density, lighting_time, burnt}, {burnt}, burn<Dim>);
+  add("equation of state", Fields{density, specific_energy}.with(burns, {burnt}).with(porous, {distension}),
       Fields{pressure, sound_speed}
           .with(porous, {distension})
           .with(porous && solid, {stress_factor})

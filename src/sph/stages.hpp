@@ -14,6 +14,11 @@ bool corrects_gradients(const Scene& scene, const std::vector<Material>& materia
 template <int Dim>
 std::vector<Field> fields_of(const std::vector<Stage<Dim>>& stages);
 
+// --- burn_stage.cpp --------------------------------------------------------------------------------------------------
+/// Burnt fraction of explosives: by the time since the detonation has reached a particle, or by its compression.
+template <int Dim>
+void burn(Sph<Dim>& sph);
+
 // --- material_stages.cpp ---------------------------------------------------------------------------------------------
 /// Pressure and sound speed of every particle; with porosity the distension that goes with them.
 template <int Dim>

@@ -166,9 +166,9 @@ TEST(ReadMaterial, RefusesWithReason) {
             One{"m.toml:3: eos.gamma: expected a number such as 1.5, > 1, got 1"});
   EXPECT_EQ(problems_of_text("[eos]\nmodel = \"ideal_gas\"\ngamma = 1.4\n"),
             One{"m.toml:1: eos.density: missing: of a body whose density the scene does not give"});
-  EXPECT_EQ(problems_of_text("[eos]\nmodel = \"jwl\"\ngamma = 1.4\n"),
+  EXPECT_EQ(problems_of_text("[eos]\nmodel = \"jwk\"\ngamma = 1.4\n"),
             One{"m.toml:2: eos.model: expected one of ideal_gas, tillotson, mie_grueneisen, linear, "
-                "equilibrium_air, got \"jwl\""});
+                "equilibrium_air, jwl, got \"jwk\""});
   EXPECT_EQ(
       problems_of_text(tillotson + "[damage]\nmodel = \"grady_kipp\"\nweibull_m = 9\nweibull_k = \"5e34 1/m^3\"\n"),
       One{"m.toml:14: damage.model: needs section [elastic]"});
@@ -255,6 +255,24 @@ TEST(ReadMaterial, RefusesMetalsThatCannotBe) {
             One{"m.toml:17: strength.model: needs the temperature of eos.model = \"mie_grueneisen\""});
   EXPECT_EQ(problems_of_text("[eos]\nmodel = \"linear\"\ndensity = \"1 g/cm^3\"\n"),
             One{"m.toml:1: eos.c0: missing: sound speed"});
+}
+
+TEST(ReadMaterial, RefusesExplosivesThatMissTheirOwnDetonation) {
+  const auto problem = [](const std::string& setting) {
+    return problems_of([&] { read_material("pbx_9501", {library}, parse_document("[eos]\n" + setting + "\n", "s.toml")); });
+  };
+  EXPECT_EQ(problem("detonation_speed = \"8.75 km/s\""), One{});
+  EXPECT_EQ(problem("detonation_speed = \"9.0 km/s\""),
+            One{"s.toml:2: eos.detonation_speed: expected 8.8 km/s within 1 %, which is what the constants of the "
+                "products give (Chapman & Jouguet: D 8.8 km/s, 37 GPa, V 0.7403), got 9 km/s"});
+  EXPECT_EQ(problem("cj_pressure = \"34 GPa\""),
+            One{"s.toml:2: eos.cj_pressure: expected 37 GPa within 5 %, which is what the constants of the products give "
+                "(Chapman & Jouguet: D 8.8 km/s, 37 GPa, V 0.7403), got 34 GPa"});
+  // A mistyped constant shows in the speed.
+  ASSERT_EQ(problem("A = \"582.4 GPa\"").size(), 2u);
+  EXPECT_TRUE(problem("A = \"582.4 GPa\"")[0].starts_with("s.toml:2: eos.detonation_speed: expected") ||
+              problem("A = \"582.4 GPa\"")[0].find("eos.detonation_speed: expected") != std::string::npos);
+  EXPECT_EQ(problem("E0 = 3").size(), 1u);
 }
 
 TEST(ReadMaterials, RefusesWhatBodiesCannotHave) {
@@ -346,7 +364,8 @@ TEST(Reference, NamesEveryConstantAndEveryModel) {
                                 "c0"})
     EXPECT_NE(text.find("\n  " + key + " "), std::string::npos) << key;
   for (const std::string model : {"collins", "two_power", "quadratic", "ideal_gas", "grady_kipp", "grady_kipp_tensor",
-                                  "mie_grueneisen", "linear", "equilibrium_air", "steinberg_guinan", "johnson_cook"})
+                                  "mie_grueneisen", "linear", "equilibrium_air", "jwl", "steinberg_guinan",
+                                  "johnson_cook"})
     EXPECT_NE(text.find(": " + model), std::string::npos) << model;
 }
 

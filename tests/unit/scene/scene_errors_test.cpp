@@ -120,6 +120,18 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{"energy_and_pressure", "radius = \"3 cm\"",
                  "radius = \"3 cm\"\npressure = \"1 Pa\"\nspecific_energy = \"1 J/kg\"",
                  "s.toml:11: bodies[0].pressure: expected either pressure or specific_energy, got both"},
+        BadScene{"detonator_nowhere", "", "[[detonators]]\ntime = \"1 us\"\n",
+                 "s.toml:17: detonators[0].position: missing: the point, one end of the line, or a point of the plane"},
+        BadScene{"line_without_end", "", "[[detonators]]\nshape = \"line\"\nposition = [0, 0, 0]\n",
+                 "s.toml:17: detonators[0].end: missing: a line needs it"},
+        BadScene{"line_without_length", "",
+                 "[[detonators]]\nshape = \"line\"\nposition = [0, 0, \"1 mm\"]\nend = [0, 0, \"1 mm\"]\n",
+                 "s.toml:20: detonators[0].end: expected another place than position"},
+        BadScene{"plane_without_direction", "",
+                 "[[detonators]]\nshape = \"plane\"\nposition = [0, 0, 0]\nnormal = [0, 0, 0]\n",
+                 "s.toml:20: detonators[0].normal: expected a direction, got [0, 0, 0]"},
+        BadScene{"point_with_normal", "", "[[detonators]]\nposition = [0, 0, 0]\nnormal = [0, 0, 1]\n",
+                 "s.toml:19: detonators[0].normal: a point has none"},
         BadScene{"boundary_without_box", "", "[boundary]\nx = \"periodic\"\n",
                  "s.toml:18: boundary.x: needs boundary.min along x"},
         BadScene{"face_without_place", "", "[boundary]\nx_max = \"symmetry\"\nmin = [0, 0, 0]\n",
@@ -154,11 +166,14 @@ radius = "1 cm"
 velocity = [0, 0, "1 m/s"]
 [boundary]
 z = "periodic"
+[[detonators]]
+position = [0, 0, "1 mm"]
 )";
   EXPECT_EQ(problems_of(text),
             (std::vector<std::string>{"s.toml:8: bodies[0].shape: expected disc or rectangle in 2D, got \"sphere\"",
                                       "s.toml:17: bodies[1].velocity: expected no z component in 2D",
-                                      "s.toml:19: boundary.z: expected open in 2D"}));
+                                      "s.toml:19: boundary.z: expected open in 2D",
+                                      "s.toml:21: detonators[0].position: expected no z component in 2D"}));
 }
 
 TEST(RefusesScenes, WithoutBodies) {

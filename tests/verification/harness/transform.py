@@ -16,8 +16,8 @@ def turned(scene):
     """A scene (as a dictionary) turned by 90 degrees."""
     scene = copy.deepcopy(scene)
     charge = [scene["charge"]] if "charge" in scene else []
-    for body in [*scene.get("bodies", []), *charge]:
-        for key in ("center", "axis", "velocity"):
+    for body in [*scene.get("bodies", []), *scene.get("detonators", []), *charge]:
+        for key in ("center", "axis", "velocity", "position", "end", "normal"):
             if key in body:
                 x, y, *z = body[key]
                 body[key] = [minus(y), x, *z]

@@ -1,0 +1,63 @@
+"""A plane detonation lit at a rigid wall: its speed, the state of Chapman and Jouguet at the front, the wave behind."""
+import numpy as np
+
+from exact.jwl import Jwl
+from harness import Bound, Case, binned, fall, l1, relative
+from harness.run import number
+
+LENGTH, ROWS = 0.1, 8  # m; spacings
+PRINTED = 0.7403, 37.00e9, 8800, 2285  # of PBX 9501: V, Pa, m/s, m/s
+KEYS = ("density", "A", "B", "R1", "R2", "omega", "E0", "detonation_speed")
+
+
+def explosive(run, name="pbx_9501"):
+    eos = run.scene["materials"][name]["eos"]
+    return Jwl(*(number(eos[key]) for key in KEYS))
+
+
+class Detonation(Case):
+    """Resolution: particles along the slab."""
+    name = "detonation"
+    title = "plane detonation of PBX 9501 from a rigid wall"
+    exact = "Chapman and Jouguet's state of the products, and the isentropic wave in x/t behind it (Taylor 1950)"
+    quick, full = (50, 100, 200), (50, 100, 200, 400)
+    boost = "a wall on which the explosive is lit"
+    bounds = ()
+
+    def settings(self, resolution):
+        spacing = LENGTH / resolution
+        return {"resolution.spacing": (spacing, "m"), "bodies.slab.size": (LENGTH, ROWS * spacing, "m"),
+                "boundary.min": (0, -ROWS / 2 * spacing, "m"), "boundary.max": (0, ROWS / 2 * spacing, "m")}
+
+    def errors(self, run, resolution):
+        """Profiles over the whole slab, relative to the state of Chapman and Jouguet; its pressure at the front; the rest."""
+        jwl, state = explosive(run), run.final
+        V, P, D, u = jwl.cj
+        x = state["position"][:, 0]
+        volume, pressure, velocity = jwl.taylor_wave(x, state.time)
+        fields = {"density": (state["density"], jwl.density / volume, jwl.density / V - jwl.density),
+                  "pressure": (state["pressure"], pressure, P), "velocity": (state["velocity"][:, 0], velocity, u)}
+        errors = {(name, "L1"): l1(value, exact, state.volume) / jump for name, (value, exact, jump) in fields.items()}
+        errors["pressure at the front", "relative"] = relative(state["pressure"].max(), P)
+        resting = (x > 0.1 * D * state.time) & (x < 0.4 * D * state.time)
+        errors["pressure at rest", "relative"] = relative(state["pressure"][resting].mean(),
+                                                          jwl.taylor_wave(np.array([0.0]), state.time)[1][0])
+        errors["detonation speed", "relative"] = relative(self.measured_speed(run, LENGTH / resolution), D)
+        errors["burnt mass", "relative"] = relative(run.history["burnt mass fraction"][-1], D * state.time / LENGTH)
+        return errors
+
+    def measured_speed(self, run, spacing):
+        """Slope of the line through the places where half of the pressure has been reached."""
+        later = run.states[3:]
+        places = [fall(*binned(s["position"][:, 0], s["pressure"], 0.2 * spacing), explosive(run).cj[1] / 2)
+                  for s in later]
+        return np.polyfit([s.time for s in later], places, 1)[0]
+
+    def check_exact(self):
+        jwl = Jwl(1840, 852.4e9, 18.02e9, 4.6, 1.3, 0.38, 10.2e9)
+        assert np.allclose(jwl.cj, PRINTED, rtol=2e-4), jwl.cj
+        assert abs(jwl.isentrope(jwl.cj[0])[1] / (jwl.cj[2] - jwl.cj[3]) - 1) < 1e-6  # sonic
+        assert np.allclose([jwl.isentrope(7)[0], jwl.energy(7)], [0.08429e9, 1.5172e9], rtol=1e-3)
+
+
+CASES = [Detonation()]
