@@ -106,7 +106,8 @@ void check_detonator(const Scene& scene, const Detonator& detonator, const std::
     if (needed != is_set(value[0]))
       report(path + "." + key,
              fmt::format(fmt::runtime(needed ? "missing: a {} needs it" : "a {} has none"), name_of(detonator.shape)));
-    if (scene.dimension == 2 && is_set(value[0]) && value[2] != 0)
+    const bool along_z = key == std::string_view("normal") && value[0] == 0 && value[1] == 0;
+    if (scene.dimension == 2 && is_set(value[0]) && value[2] != 0 && !along_z)
       report(path + "." + key, "expected no z component in 2D");
   };
   check_key("position", detonator.position, true);

@@ -7,9 +7,8 @@ namespace ejecta {
 
 namespace {
 
-/// Particles over which the front of a programmed burn is spread: with fewer it rings, with more the states behind it
-/// form later.
-constexpr double burn_width = 3;
+/// Spacings over which the front is spread: with fewer its speed gets uneven, with more the states behind it form later.
+constexpr double burn_width = 2.5;
 
 }  // namespace
 

@@ -91,7 +91,7 @@ Vec<Dim> nearest_on(const Detonator& detonator, const Vec<Dim>& x) {
       return p + std::clamp((x - p).dot(along) / along.squaredNorm(), 0.0, 1.0) * along;
     }
     case DetonatorShape::plane: {
-      const Vec<Dim> n = first_components<Dim>(detonator.normal).normalized();
+      const Vec<Dim> n = first_components<Dim>(detonator.normal).normalized();  // zero if it is along z in 2D
       return x - (x - p).dot(n) * n;
     }
   }
