@@ -27,7 +27,7 @@ constexpr double never = std::numeric_limits<double>::infinity();
 constexpr double margin = 0.25;
 /// Places at which a straight way asks where it is, in spacings.
 constexpr double look = 0.25;
-/// Neighbours along all diagonals of a cube of a lattice, in spacings.
+/// Neighbours along all diagonals of a cube of a lattice, in spacings. A detonator touches what is as near.
 constexpr double reach = 1.75;
 
 template <int Dim>
@@ -180,7 +180,7 @@ std::vector<double> lighting_times(const Scene& scene, const std::vector<Materia
   std::vector<std::string> problems;
   for (const Detonator& detonator : scene.detonators) {
     const double distance = light(detonator, explosives, places, ways);
-    if (distance > explosives.coarsest())
+    if (distance > reach * explosives.coarsest())
       problems.push_back(fmt::format(
           "{}: detonators: expected one that touches an explosive, got one {} from the nearest of its particles",
           detonator.origin, format_quantity(distance, "m")));

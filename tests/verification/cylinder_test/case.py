@@ -6,7 +6,7 @@ from harness import Bound, Case, relative
 from harness.run import SOURCE
 
 EXPLOSIVE, COPPER, ROOT_2E = 1840, 8930, 2900  # kg/m^3, kg/m^3, m/s: of PBX 9501, Martineau (1998)
-BORE = 50.8e-3  # m, radius
+BORE, READ_AT = 50.8e-3, 30e-6  # radius [m]; the plateau is said to be there after 25 to 30 us
 MEASURED = {2.54: (2750, 2800), 5.08: (2300, 2350)}  # m/s, by the thickness of the wall in mm; LA-13424-T
 
 
@@ -19,16 +19,19 @@ def speed_of(run, name, state):
 
 class Cylinder(Case):
     """Resolution: particles through the wall."""
-    exact = "plateau of the experiment and of computations beside it (LA-13424-T), and Gurney's cylinder"
-    quick, full = (4,), (4, 6, 8)
+    exact = "experiment and computations beside it (LA-13424-T), and Gurney's cylinder"
     boost = "planes of symmetry"
-    mixed_margin = "one figure, and its error passes through zero"
+    mixed_margin = "two figures, whose errors pass through zero"
+    bounds = (
+        Bound("speed at 30 us, of the experiment", "relative", 0.03, why="3 % is asked: two figures, no order"),
+        Bound("speed at 40 us, of Gurney's", "relative", 0.03, why="the same"),
+    )
 
     def __init__(self, wall):
         self.wall = wall
         self.name = f"cylinder_{wall:.2f}mm".replace(".", "_")
         self.title = f"tube of copper, wall of {wall} mm, filled with PBX 9501"
-        self.bounds = ()
+        self.quick, self.full = ((4,), (4, 6)) if wall < 5 else ((8,), (4, 6, 8))
 
     @property
     def scene_file(self):
@@ -36,20 +39,22 @@ class Cylinder(Case):
 
     def settings(self, resolution):
         wall = 1e-3 * self.wall
-        return {"resolution.spacing": (2 * wall / resolution, "m"), "bodies.tube.radius": (BORE + wall, "m"),
-                "insitu.enabled": False, "output.snapshots": 9}
+        strip = ((BORE + wall)**2 - BORE**2) / (2 * BORE)  # the scene bends it to the wall
+        return {"resolution.spacing": (2 * wall / resolution, "m"),
+                "bodies.tube.center": (BORE * np.pi / 4, 0.2 + strip / 2, "m"),
+                "bodies.tube.size": (BORE * np.pi / 2, strip, "m"), "output.times": '["30 us"]',
+                "insitu.enabled": False}
 
     def gurney(self):
         outer = BORE + 1e-3 * self.wall
         return gurney_speed(ROOT_2E, (outer**2 / BORE**2 - 1) * COPPER / EXPLOSIVE, "cylinder")
 
     def errors(self, run, resolution):
-        """Of the speed at the end, when it has changed by less than 1 % since 5 us before."""
-        plateau = speed_of(run, "tube", run.final)
-        low, high = MEASURED[self.wall]
-        return {("plateau, of the experiment", "relative"): relative(plateau, (low + high) / 2),
-                ("plateau, of Gurney's", "relative"): relative(plateau, self.gurney()),
-                ("change in the last 5 us", "relative"): relative(speed_of(run, "tube", run.states[-2]), plateau)}
+        """30 us after the detonation has passed, of the middle of what was measured; at the end, of Gurney's."""
+        read = next(state for state in run.states if abs(state.time - READ_AT) < 1e-9)
+        return {("speed at 30 us, of the experiment", "relative"):
+                    relative(speed_of(run, "tube", read), np.mean(MEASURED[self.wall])),
+                ("speed at 40 us, of Gurney's", "relative"): relative(speed_of(run, "tube", run.final), self.gurney())}
 
     def check_exact(self):
         printed = {2.54: 2902, 5.08: 2351}[self.wall]
@@ -71,14 +76,13 @@ class Shell(Case):
         return SOURCE / "inputs" / "he_shell.toml"
 
     def settings(self, resolution):
-        return {"resolution.spacing": (10e-3 / resolution, "m"), "insitu.enabled": False, "output.snapshots": 9}
+        return {"resolution.spacing": (10e-3 / resolution, "m"), "insitu.enabled": False}
 
     def errors(self, run, resolution):
         inner, outer = 50e-3, 55e-3
         speed = gurney_speed(ROOT_2E, (outer**3 / inner**3 - 1) * COPPER / EXPLOSIVE, "sphere")
         plateau = speed_of(run, "shell", run.final)
-        return {("plateau, of Gurney's", "relative"): relative(plateau, speed),
-                ("change in the last ninth", "relative"): relative(speed_of(run, "shell", run.states[-2]), plateau)}
+        return {("speed at 45 us, of Gurney's", "relative"): relative(plateau, speed)}
 
 
 CASES = [*(Cylinder(wall) for wall in MEASURED), Shell()]

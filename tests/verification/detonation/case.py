@@ -22,7 +22,17 @@ class Detonation(Case):
     exact = "Chapman and Jouguet's state of the products, and the isentropic wave in x/t behind it (Taylor 1950)"
     quick, full = (50, 100, 200), (50, 100, 200, 400)
     boost = "a wall on which the explosive is lit"
-    bounds = ()
+    bounds = (
+        Bound("density", "L1", {50: 0.044, 100: 0.0235, 200: 0.0125}, 0.8),
+        Bound("pressure", "L1", {50: 0.026, 100: 0.014, 200: 0.0071}, 0.8),
+        Bound("velocity", "L1", {50: 0.036, 100: 0.018, 200: 0.0095}, 0.8),
+        Bound("pressure at the front", "relative", {50: 0.21, 100: 0.135, 200: 0.086}, 0.5),
+        Bound("pressure at rest", "relative", {50: 0.0035, 100: 0.0032, 200: 0.0012}, why="half of the way behind the front "
+              "little is left of its width: the error changes its sign, so no order"),
+        Bound("detonation speed", "relative", {50: 0.003, 100: 0.001, 200: 0.001}, why="0.1 % is asked; the times of lighting "
+              "are exact, and the place of the front is read to a part of a spacing, so no order"),
+        Bound("burnt mass", "relative", {50: 0.0065, 100: 0.003, 200: 0.0017}, 0.8),
+    )
 
     def settings(self, resolution):
         spacing = LENGTH / resolution
@@ -47,9 +57,9 @@ class Detonation(Case):
         return errors
 
     def measured_speed(self, run, spacing):
-        """Slope of the line through the places where half of the pressure has been reached."""
+        """Slope of the line through the places where half of the highest pressure has been reached."""
         later = run.states[3:]
-        places = [fall(*binned(s["position"][:, 0], s["pressure"], 0.2 * spacing), explosive(run).cj[1] / 2)
+        places = [fall(*binned(s["position"][:, 0], s["pressure"], 0.2 * spacing), s["pressure"].max() / 2)
                   for s in later]
         return np.polyfit([s.time for s in later], places, 1)[0]
 

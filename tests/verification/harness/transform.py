@@ -29,7 +29,7 @@ def turned(scene):
     faces = {"x": "y", "y": "x", "x_min": "y_min", "x_max": "y_max", "y_min": "x_max", "y_max": "x_min"}
     boundary = scene["boundary"] = {faces.get(key, key): value for key, value in scene["boundary"].items()}
     if "min" in boundary:
-        (x0, y0, *z0), (x1, y1, *z1) = boundary["min"], boundary["max"]
+        (x0, y0, *z0), (x1, y1, *z1) = boundary["min"], boundary.get("max", boundary["min"])  # none: upper faces are open
         boundary["min"], boundary["max"] = [minus(y1), x0, *z0], [minus(y0), x1, *z1]
     return scene
 
