@@ -50,7 +50,7 @@ TEST(BurnStage, BurnsByTheTimeOfLighting) {
       ASSERT_LE(burnt[i], 1);
       const double past = 8800 * (sph->clock.time - lit[i]);  // m
       if (past > 1.6e-3) ASSERT_EQ(burnt[i], 1) << x[i];
-      if (past < -6e-3) ASSERT_EQ(burnt[i], 0) << x[i];
+      if (past < -6e-3) ASSERT_LT(burnt[i], 1e-3) << x[i];  // what the front presses ahead of itself
     }
     before = burnt;
   }
@@ -67,20 +67,39 @@ TEST(BurnStage, RestsUntilItIsLit) {
   for (const double p : by_id(sph->particles, Field::pressure)) EXPECT_EQ(p, 0);
 }
 
-/// Thrown at the wall, it burns as far as it is compressed towards the state of Chapman & Jouguet, and stays burnt.
+/// As far as it is compressed towards the state of Chapman & Jouguet, and what has burnt stays burnt.
 TEST(BurnStage, BurnsByCompression) {
-  const auto sph = start<2>(slab, {"bodies.slab.velocity=-1500 0 m/s"});
-  std::vector<double> most(sph->particles.size(), 0);
-  for (int k = 0; k < 60; ++k) {
-    step(*sph, no_limit);
-    const auto burnt = by_id(sph->particles, Field::burnt);
-    for (std::size_t i = 0; i < most.size(); ++i) {
-      ASSERT_GE(burnt[i], most[i]);
-      most[i] = burnt[i];
-    }
+  const auto sph = start<2>(slab);
+  const auto density = sph->particles.column(Field::density), burnt = sph->particles.column(Field::burnt);
+  for (std::size_t i = 0; i < density.size(); ++i) density[i] = 1840 * (0.9 + 0.003 * static_cast<double>(i));
+  burn(*sph);
+  for (std::size_t i = 0; i < density.size(); ++i)
+    EXPECT_NEAR(burnt[i], std::clamp((1 - 1840 / density[i]) / (1 - 0.7403), 0.0, 1.0), 1e-3);
+  EXPECT_EQ(std::ranges::max(burnt), 1);
+  const std::vector<double> before(burnt.begin(), burnt.end());
+  std::ranges::fill(density, 1000);
+  burn(*sph);
+  EXPECT_TRUE(std::ranges::equal(burnt, before));
+}
+
+/// Products that leave a free end get fast and thin: no step collapses, no energy is lost, none falls below zero, and
+/// nobody is faster than the products of a steady detonation that expand into a vacuum, 11.66 km/s (integrated by
+/// another program along their isentrope).
+TEST(BurnStage, ReleasesProductsToAVacuum) {
+  const auto sph = start<2>(lit_slab);
+  const double energy = sph->initial.internal;
+  double shortest = 1;
+  while (sph->clock.time < 20e-6) {
+    shortest = std::min(shortest, step(*sph, no_limit).dt);
+    const Totals now = sph->conserved();
+    ASSERT_NEAR(now.internal + now.kinetic, energy, 1e-12 * energy);
   }
-  EXPECT_GT(std::ranges::max(most), 0.99);
-  EXPECT_EQ(std::ranges::min(most), 0);
+  EXPECT_GT(shortest, 30e-9);  // 0.4 h over 11 km/s is 47 ns
+  EXPECT_GT(std::ranges::min(by_id(sph->particles, Field::specific_energy)), 0);
+  const double fastest = std::ranges::max(by_id(sph->particles, Field::velocity));
+  EXPECT_LT(fastest, 11656);
+  EXPECT_GT(fastest, 6000);
+  EXPECT_LT(std::ranges::min(by_id(sph->particles, Field::density)), 0.25 * 1840);
 }
 
 TEST(BurnStage, CostsNothingWithoutExplosives) {

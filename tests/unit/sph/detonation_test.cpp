@@ -180,12 +180,12 @@ TEST(Detonation, RefusesDetonatorsThatLightNothing) {
   const std::string block = rectangle("block", "lx_17", "[0, 0]", "[\"20 mm\", \"10 mm\"]");
   using One = std::vector<std::string>;
   EXPECT_EQ(refused(scene_with("0.5 mm", 2, block + "[[detonators]]\nposition = [0, \"9 mm\"]\n")),
-            One{"test.toml:13: detonators: expected one that touches an explosive, got one 4.257 mm from the nearest of "
+            One{"test.toml:14: detonators: expected one that touches an explosive, got one 4.257 mm from the nearest of "
                 "its particles"});
   EXPECT_EQ(refused(scene_with("0.5 mm", 2,
                                rectangle("block", "copper", "[0, 0]", "[\"20 mm\", \"10 mm\"]") +
                                    "[[detonators]]\nposition = [0, 0]\n")),
-            One{"test.toml:13: detonators: no body is of an explosive"});
+            One{"test.toml:14: detonators: no body is of an explosive"});
 }
 
 TEST(Detonation, SaysWhatIsNeverLit) {
