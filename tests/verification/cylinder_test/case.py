@@ -62,11 +62,13 @@ class Cylinder(Case):
 
 
 class Shell(Case):
-    """Resolution: particles through the wall."""
+    """Resolution: particles along the radius of the ball. At others the lattice of the shell, which is scaled to its
+    volume, may reach into the ball."""
+    spacings = {12: 4e-3, 17: 3e-3, 21: 2.4e-3}  # m
     name = "shell"
     title = "spherical shell of copper filled with PBX 9501, lit at the centre"
     exact = "Gurney's sphere"
-    quick, full = (), (4, 6)
+    quick, full = (), (12, 17, 21)
     boost = rotation = "planes of symmetry; shown with the tube"
     mixed_margin = "one figure"
     bounds = ()
@@ -76,7 +78,7 @@ class Shell(Case):
         return SOURCE / "inputs" / "he_shell.toml"
 
     def settings(self, resolution):
-        return {"resolution.spacing": (10e-3 / resolution, "m"), "insitu.enabled": False}
+        return {"resolution.spacing": (self.spacings[resolution], "m"), "insitu.enabled": False}
 
     def errors(self, run, resolution):
         inner, outer = 50e-3, 55e-3
