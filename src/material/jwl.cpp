@@ -15,8 +15,8 @@ ChapmanJouguet Jwl::chapman_jouguet() const {
   const auto square = [&](double V) { return pressure(V) / (rho0 * (1 - V)); };
   // The least is at 0.73 to 0.76 for the explosives in use; constants without one end at a bound, and miss their D.
   constexpr double densest = 0.4, thinnest = 0.99;
-  const auto [V, least] = boost::math::tools::brent_find_minima(square, densest, thinnest,
-                                                                std::numeric_limits<double>::digits / 2);
+  const auto [V, least] =
+      boost::math::tools::brent_find_minima(square, densest, thinnest, std::numeric_limits<double>::digits / 2);
   const double speed = std::sqrt(least);
   return {speed, pressure(V), V, speed * (1 - V)};
 }

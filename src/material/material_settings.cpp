@@ -134,7 +134,8 @@ void describe(Describer& d, EquilibriumAir& a) {
 
 void describe(Describer& d, Jwl& j) {
   constant(d, "density", j.rho0, "kg/m^3", positive, "of the explosive");
-  constant(d, "A", j.A, "Pa", positive, "of A (1 - omega/(R1 V)) exp(-R1 V), V = density at the start over density now");
+  constant(d, "A", j.A, "Pa", positive,
+           "of A (1 - omega/(R1 V)) exp(-R1 V), V = density at the start over density now");
   constant(d, "B", j.B, "Pa", any_number, "of the same with R2");
   constant(d, "R1", j.R1, "1", positive, "decay of A with the volume");
   constant(d, "R2", j.R2, "1", positive, "decay of B with the volume");

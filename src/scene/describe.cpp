@@ -55,7 +55,8 @@ void describe(Describer& d, Detonator& t) {
   d.choice("shape", t.shape, "what is lit at once; in plane strain a point stands for a line along z");
   d.triple("position", t.position, "m", "the point, one end of the line, or a point of the plane").required = true;
   d.triple("end", t.end, "m", "the other end of a line");
-  d.triple("normal", t.normal, "1", "of a plane; [0, 0, 1] in 2D: a detonation along z passes the whole section at once");
+  d.triple("normal", t.normal, "1",
+           "of a plane; [0, 0, 1] in 2D: a detonation along z passes the whole section at once");
   d.number("time", t.time, "s", non_negative, "when it goes off");
   d.origin(t.origin);
 }

@@ -55,8 +55,9 @@ std::vector<Remark> unlit(const Sph<Dim>& sph) {
                                   sph.scene.bodies[b].name, never, all, material.name),
                       true});
     else if (last > sph.scene.time_end)
-      list.push_back({fmt::format("{}: the run ends at {}, before all of it has been lit at {}", sph.scene.bodies[b].name,
-                                  format_quantity(sph.scene.time_end, "s"), format_quantity(last, "s"))});
+      list.push_back(
+          {fmt::format("{}: the run ends at {}, before all of it has been lit at {}", sph.scene.bodies[b].name,
+                       format_quantity(sph.scene.time_end, "s"), format_quantity(last, "s"))});
   }
   return list;
 }

@@ -7,7 +7,8 @@ namespace ejecta {
 
 namespace {
 
-/// Spacings over which the front is spread: with fewer its speed gets uneven, with more the states behind it form later.
+/// Spacings over which the front is spread: with fewer its speed gets uneven, with more the states behind it form
+/// later.
 constexpr double burn_width = 2.5;
 
 }  // namespace

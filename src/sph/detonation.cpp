@@ -114,9 +114,9 @@ double light(const Detonator& detonator, const Explosives<Dim>& explosives, cons
     const double time = detonator.time + explosives.time(source, places[k]);
     if (time < ways[k].time) ways[k] = {time, detonator.time, source};
   });
-  return parallel_min(places.size(), never, [&](std::size_t k) {
-           return (nearest_on<Dim>(detonator, places[k]) - places[k]).norm();
-         }).value;
+  return parallel_min(places.size(), never,
+                      [&](std::size_t k) { return (nearest_on<Dim>(detonator, places[k]) - places[k]).norm(); })
+      .value;
 }
 
 /// Hands ways on from particle to particle, the earliest first (Dijkstra 1959): a neighbour is reached straight from

@@ -72,10 +72,9 @@ void apply_profiles(Sph<Dim>& sph, const std::vector<Placement<Dim>>& placements
         store(i, value);
       }
     };
-    evaluate("specific_energy", profile.specific_energy,
-             [&](std::size_t i, double value) {
-               p.column(Field::specific_energy)[i] = energy_at_rest(material.eos) + value;
-             });
+    evaluate("specific_energy", profile.specific_energy, [&](std::size_t i, double value) {
+      p.column(Field::specific_energy)[i] = energy_at_rest(material.eos) + value;
+    });
     evaluate("pressure", profile.pressure, [&](std::size_t i, double value) {
       const double density = p.column(Field::density)[i];
       p.column(Field::specific_energy)[i] = specific_energy_at(material.eos, density, value).value();

@@ -125,11 +125,10 @@ void follow(const Scene& scene, Findings& findings) {
 
 /// A few hundred to a few thousand particles.
 std::vector<std::string> coarse(const std::string& name) {
-  const std::map<std::string, std::string> spacings{{"basalt_impact", "3 mm"},   {"expanding_ring", "1 mm"},
-                                                    {"pumice_impact", "4 mm"},   {"pumice_impact_2d", "3 mm"},
-                                                    {"he_shell", "4 mm"},        {"he_tube", "10.16 mm"},
-                                                    {"rubber_balls_3d", "4 mm"}, {"tensile_rod_2d", "0.5 mm"},
-                                                    {"tensile_rod_3d", "0.7 mm"}};
+  const std::map<std::string, std::string> spacings{
+      {"basalt_impact", "3 mm"},    {"expanding_ring", "1 mm"},   {"pumice_impact", "4 mm"},
+      {"pumice_impact_2d", "3 mm"}, {"he_shell", "4 mm"},         {"he_tube", "10.16 mm"},
+      {"rubber_balls_3d", "4 mm"},  {"tensile_rod_2d", "0.5 mm"}, {"tensile_rod_3d", "0.7 mm"}};
   const auto found = spacings.find(name);
   return found == spacings.end() ? std::vector<std::string>{} : std::vector{"resolution.spacing=" + found->second};
 }
@@ -139,7 +138,7 @@ const std::set<std::string> seldom{"neighbours reads smoothing_length",
                                    "neighbours reads smoothing_metric",  // go into the lists, which are no columns
                                    "neighbours writes position",
                                    "neighbours writes velocity",  // of what crosses a face
-                                   "burn reads density",  // nothing is compressed before it is lit
+                                   "burn reads density",          // nothing is compressed before it is lit
                                    "driven bodies reads mass",
                                    "driven bodies reads position",
                                    "driven bodies reads velocity",  // for the ledger

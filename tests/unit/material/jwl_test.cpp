@@ -65,13 +65,14 @@ TEST(Jwl, DerivativesAgreeWithDifferences) {
   std::uniform_real_distribution<double> uniform(0, 1);
   for (const Jwl& eos : {tnt, pbx_9501})
     for (int k = 0; k < 10000; ++k) {
-      const double rho = eos.rho0 * (0.01 + 1.6 * uniform(random)), e = eos.energy_at_rest() * (0.2 + 2 * uniform(random));
+      const double rho = eos.rho0 * (0.01 + 1.6 * uniform(random)),
+                   e = eos.energy_at_rest() * (0.2 + 2 * uniform(random));
       const EosPoint p = eos.evaluate(rho, e, 1);
       const double d_rho = 1e-5 * rho, d_e = 1e-5 * e;
       ASSERT_NEAR((eos.evaluate(rho + d_rho, e, 1).pressure - eos.evaluate(rho - d_rho, e, 1).pressure) / (2 * d_rho),
                   p.dP_drho, 1e-6 * (std::abs(p.dP_drho) + p.pressure / rho));
-      ASSERT_NEAR((eos.evaluate(rho, e + d_e, 1).pressure - eos.evaluate(rho, e - d_e, 1).pressure) / (2 * d_e), p.dP_de,
-                  1e-6 * p.dP_de);
+      ASSERT_NEAR((eos.evaluate(rho, e + d_e, 1).pressure - eos.evaluate(rho, e - d_e, 1).pressure) / (2 * d_e),
+                  p.dP_de, 1e-6 * p.dP_de);
     }
 }
 

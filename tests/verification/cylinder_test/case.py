@@ -71,7 +71,7 @@ class Shell(Case):
     quick, full = (), (12, 17, 21)
     boost = rotation = "planes of symmetry; shown with the tube"
     mixed_margin = "one figure"
-    bounds = ()
+    bounds = (Bound("speed at 45 us, of Gurney's", "relative", {12: 0.10, 17: 0.05, 21: 0.04}, 1.0),)
 
     @property
     def scene_file(self):
