@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cmath>
 
 #include "material/eos_point.hpp"
@@ -21,9 +22,11 @@ struct ChapmanJouguet {
 ///   P = A (1 - w/(R1 V)) exp(-R1 V) + B (1 - w/(R2 V)) exp(-R2 V) + w E / V.
 /// The energy begins at E0: that of the bonds is in it from the start, and burning needs no source. Pressure is that of
 /// the products times the burnt fraction, so matter that has not burnt has none, nor has it strength. Products do not
-/// pull: no pressure below zero.
+/// pull: no pressure below zero. The form says nothing of much denser matter (at V = w/R1 the first term vanishes):
+/// below V = densest what does not depend on the energy goes on along its tangent in the density.
 struct Jwl {
   static constexpr bool gas = true;
+  static constexpr double densest = 0.35;  ///< V; a detonation that meets another one comes to about half
 
   double rho0 = unset;              ///< density of the explosive [kg/m^3]
   double A = unset, B = unset;      ///< Pa
@@ -36,11 +39,14 @@ struct Jwl {
   /// State at density rho > 0 [kg/m^3], specific energy e [J/kg] and burnt fraction. The derivatives are those of the
   /// products whatever has burnt: sound speed, viscosity and time step do not jump when the front arrives.
   EosPoint evaluate(double rho, double e, double burnt = 0) const {
-    const double V = rho0 / rho, a = A * std::exp(-R1 * V), b = B * std::exp(-R2 * V);
-    const double pressure = a * (1 - omega / (R1 * V)) + b * (1 - omega / (R2 * V)) + omega * rho * e;
-    if (pressure <= 0) return {0, 0, 0};
+    const double held = std::min(rho, rho0 / densest), V = rho0 / held;
+    const double a = A * std::exp(-R1 * V), b = B * std::exp(-R2 * V);
     const double dP_dV = a * (omega / V * (1 + 1 / (R1 * V)) - R1) + b * (omega / V * (1 + 1 / (R2 * V)) - R2);
-    return {burnt * pressure, omega * e - dP_dV * V / rho, omega * rho};
+    const double cold_slope = -dP_dV * V / held;
+    const double cold = a * (1 - omega / (R1 * V)) + b * (1 - omega / (R2 * V)) + cold_slope * (rho - held);
+    const double pressure = cold + omega * rho * e;
+    if (pressure <= 0) return {0, 0, 0};
+    return {burnt * pressure, cold_slope + omega * e, omega * rho};
   }
   double reference_density() const { return rho0; }
   /// One per cent of D [m/s]; of cold products that would pull.

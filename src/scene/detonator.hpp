@@ -17,8 +17,8 @@ struct Detonator {
   Triple position{unset, 0, 0};  ///< the point, an end of the line, a point of the plane [m]
   Triple end{unset, 0, 0};       ///< other end of a line [m]
   Triple normal{unset, 0, 0};    ///< of a plane
-  double time = 0;                       ///< s
-  std::string origin;                    ///< where the scene says so: "inputs/x.toml:14"
+  double time = 0;               ///< s
+  std::string origin;            ///< where the scene says so: "inputs/x.toml:14"
 };
 
 }  // namespace ejecta

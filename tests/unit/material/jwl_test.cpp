@@ -76,6 +76,19 @@ TEST(Jwl, DerivativesAgreeWithDifferences) {
     }
 }
 
+/// However dense: along the tangent, without a jump of pressure or slope, and stable.
+TEST(Jwl, GoesOnBeyondItsForm) {
+  for (const Jwl& eos : {tnt, pbx_9501}) {
+    const double edge = eos.rho0 / Jwl::densest, e = eos.energy_at_rest();
+    const EosPoint before = eos.evaluate(edge * (1 - 1e-9), e, 1), after = eos.evaluate(edge * (1 + 1e-9), e, 1);
+    EXPECT_NEAR(after.pressure, before.pressure, 1e-7 * before.pressure);
+    EXPECT_NEAR(after.dP_drho, before.dP_drho, 1e-7 * before.dP_drho);
+    for (double rho = eos.rho0; rho < 20 * eos.rho0; rho *= 1.1) EXPECT_GT(eos.evaluate(rho, 0, 1).dP_drho, 0);
+    const EosPoint far = eos.evaluate(10 * eos.rho0, e, 1);
+    EXPECT_NEAR(far.pressure, after.pressure + after.dP_drho * (10 * eos.rho0 - edge), 1e-7 * far.pressure);
+  }
+}
+
 TEST(Jwl, PressureGrowsWithWhatHasBurntAndNothingPulls) {
   const double rho = pbx_9501.rho0, e = pbx_9501.energy_at_rest();
   const EosPoint whole = pbx_9501.evaluate(rho, e, 1);

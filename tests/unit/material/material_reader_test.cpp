@@ -296,6 +296,20 @@ TEST(ReadMaterials, RefusesWhatBodiesCannotHave) {
                 "set materials.pumice.porosity.initial_distension"});
 }
 
+TEST(ReadMaterials, ExplosivesBurnAsParticles) {
+  const auto problems = [](const std::string& more) {
+    std::string text = scene_text("", more);
+    text.replace(text.find("pumice"), 6, "lx_17");
+    return problems_of([&] { read_materials(parse_scene(text, "s.toml"), library); });
+  };
+  EXPECT_EQ(problems("[numerics]\nscheme = \"asph\"\n"), One{});
+  EXPECT_EQ(problems("[numerics]\nscheme = \"gsph\"\n"),
+            One{"s.toml:7: bodies.target: numerics.scheme: expected sph or asph, got gsph: lx_17 is an explosive, which "
+                "burns as particles"});
+  EXPECT_EQ(problems("pressure = \"1 GPa\"\n"),
+            One{"s.toml:7: bodies.target: pressure: only a gas can be given one, and lx_17 is none"});
+}
+
 TEST(ReadMaterials, CollectsTheProblemsOfAll) {
   const std::string second = "[[bodies]]\nname = \"b\"\nmaterial = \"unobtainium\"\nradius = \"1 cm\"\n";
   const Scene scene = parse_scene(scene_text("", second), "s.toml", {"materials.pumice.eos.A=3"});
