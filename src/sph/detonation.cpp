@@ -55,9 +55,9 @@ class Explosives {
   /// Time of the straight way from a to b [s]; infinite if it leaves the explosives.
   double time(const Vec<Dim>& a, const Vec<Dim>& b) const {
     const double length = (b - a).norm();
-    const int pieces = std::max(1, static_cast<int>(std::ceil(length / (look * finest_))));
+    const double pieces = std::max(1.0, std::ceil(length / (look * finest_)));
     double sum = 0;
-    for (int k = 0; k < pieces; ++k) {
+    for (double k = 0; k < pieces; ++k) {
       const double here = slowness(a + (k + 0.5) / pieces * (b - a));
       if (here == never) return never;
       sum += here;
@@ -105,18 +105,23 @@ struct Way {
   Vec<Dim> source = Vec<Dim>::Zero();
 };
 
-/// Straight ways from a detonator. Returns the distance of the nearest particle [m].
+/// Distance of the nearest place from a detonator [m].
 template <int Dim>
-double light(const Detonator& detonator, const Explosives<Dim>& explosives, const std::vector<Vec<Dim>>& places,
-             std::vector<Way<Dim>>& ways) {
+double distance_of(const Detonator& detonator, const std::vector<Vec<Dim>>& places) {
+  return parallel_min(places.size(), never,
+                      [&](std::size_t k) { return (nearest_on<Dim>(detonator, places[k]) - places[k]).norm(); })
+      .value;
+}
+
+/// Straight ways from a detonator.
+template <int Dim>
+void light(const Detonator& detonator, const Explosives<Dim>& explosives, const std::vector<Vec<Dim>>& places,
+           std::vector<Way<Dim>>& ways) {
   parallel_for(0, places.size(), [&](std::size_t k) {
     const Vec<Dim> source = nearest_on<Dim>(detonator, places[k]);
     const double time = detonator.time + explosives.time(source, places[k]);
     if (time < ways[k].time) ways[k] = {time, detonator.time, source};
   });
-  return parallel_min(places.size(), never,
-                      [&](std::size_t k) { return (nearest_on<Dim>(detonator, places[k]) - places[k]).norm(); })
-      .value;
 }
 
 /// Hands ways on from particle to particle, the earliest first (Dijkstra 1959): a neighbour is reached straight from
@@ -179,8 +184,10 @@ std::vector<double> lighting_times(const Scene& scene, const std::vector<Materia
   std::vector<Way<Dim>> ways(places.size());
   std::vector<std::string> problems;
   for (const Detonator& detonator : scene.detonators) {
-    const double distance = light(detonator, explosives, places, ways);
-    if (distance > reach * explosives.coarsest())
+    const double distance = distance_of(detonator, places);
+    if (distance < reach * explosives.coarsest())
+      light(detonator, explosives, places, ways);
+    else
       problems.push_back(fmt::format(
           "{}: detonators: expected one that touches an explosive, got one {} from the nearest of its particles",
           detonator.origin, format_quantity(distance, "m")));
