@@ -43,11 +43,10 @@ class Detonation(Case):
         """Profiles over the whole slab, relative to the state of Chapman and Jouguet; its pressure at the front; the rest."""
         jwl, state = explosive(run), run.final
         V, P, D, u = jwl.cj
+        jumps = jwl.density / V - jwl.density, P, u
+        errors = {(name.split()[0], "L1"): l1(value, exact, state.volume) / jump
+                  for (name, x, value, exact), jump in zip(self.profiles(run), jumps)}
         x = state["position"][:, 0]
-        volume, pressure, velocity = jwl.taylor_wave(x, state.time)
-        fields = {"density": (state["density"], jwl.density / volume, jwl.density / V - jwl.density),
-                  "pressure": (state["pressure"], pressure, P), "velocity": (state["velocity"][:, 0], velocity, u)}
-        errors = {(name, "L1"): l1(value, exact, state.volume) / jump for name, (value, exact, jump) in fields.items()}
         errors["pressure at the front", "relative"] = relative(state["pressure"].max(), P)
         resting = (x > 0.1 * D * state.time) & (x < 0.4 * D * state.time)
         errors["pressure at rest", "relative"] = relative(state["pressure"][resting].mean(),
@@ -55,6 +54,13 @@ class Detonation(Case):
         errors["detonation speed", "relative"] = relative(self.measured_speed(run, LENGTH / resolution), D)
         errors["burnt mass", "relative"] = relative(run.history["burnt mass fraction"][-1], D * state.time / LENGTH)
         return errors
+
+    def profiles(self, run):
+        jwl, state = explosive(run), run.final
+        x = state["position"][:, 0]
+        volume, pressure, velocity = jwl.taylor_wave(x, state.time)
+        return [("density [kg/m^3]", x, state["density"], jwl.density / volume),
+                ("pressure [Pa]", x, state["pressure"], pressure), ("velocity [m/s]", x, state["velocity"][:, 0], velocity)]
 
     def measured_speed(self, run, spacing):
         """Slope of the line through the places where half of the highest pressure has been reached."""
