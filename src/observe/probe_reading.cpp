@@ -173,6 +173,7 @@ ProbeReading read_beam(const Sph<Dim>& sph, const Probe& probe) {
   const Vec<Dim> begin = first_components<Dim>(probe.at);
   const Vec<Dim> along = first_components<Dim>(probe.direction).normalized();
   const double spot = is_set(probe.spot) ? probe.spot : sph.scene.spacing;
+  const double range = is_set(probe.range) ? probe.range : std::numeric_limits<double>::infinity();
   const auto body = label_of(sph, probe);
   const auto size = [&](std::size_t i) {
     return std::pow(p.column(Field::mass)[i] / p.column(Field::density)[i], 1.0 / Dim);
@@ -183,7 +184,7 @@ ProbeReading read_beam(const Sph<Dim>& sph, const Probe& probe) {
     if (body && p.label(Label::body)[i] != *body) continue;
     const Vec<Dim> d = p.vector(Field::position, i) - begin;
     const double ahead = d.dot(along);
-    if (ahead < 0 || (d - ahead * along).norm() > spot) continue;
+    if (ahead < 0 || ahead > range || (d - ahead * along).norm() > spot) continue;
     in_beam.emplace_back(ahead - 0.5 * size(i), i);
     first = std::min(first, in_beam.back().first);
   }

@@ -186,6 +186,7 @@ void check_probe(const Scene& scene, const Probe& probe, const std::string& path
   const bool beam = probe.kind == ProbeKind::velocimeter;
   if (beam && !probe.directed()) report(path + ".direction", "missing: a velocimeter needs it");
   if (!beam && is_set(probe.spot)) report(path + ".spot", fmt::format("a {} has none", name_of(probe.kind)));
+  if (!beam && is_set(probe.range)) report(path + ".range", fmt::format("a {} has none", name_of(probe.kind)));
   if (probe.kind != ProbeKind::point && scene.numerics.scheme == SchemeKind::fvm)
     report(path + ".kind", fmt::format("expected point on a grid, got {}", name_of(probe.kind)));
   std::vector<std::string> names;

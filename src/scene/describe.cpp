@@ -195,6 +195,7 @@ void describe(Describer& d, Probe& p) {
            "of the beam of a velocimeter, whose velocity counts towards its beginning; of the others adds the velocity "
            "along it, of a tracer also the strain");
   d.number("spot", p.spot, "m", positive, "velocimeter: radius of the beam; else resolution.spacing");
+  d.number("range", p.range, "m", positive, "velocimeter: how far the beam sees, such as the axis of a tube; else without end");
   d.number("window", p.window, "s", non_negative, "values are means over so long before each row; 0: of that moment");
   d.number("interval", p.interval, "s", positive,
            "between rows, each at the first step from then on; else output.history_interval");

@@ -19,6 +19,7 @@ struct Probe {
   std::string body;                ///< it reads that one alone; empty: whatever is there
   Triple direction{0, 0, 0};       ///< of the beam; of strain and velocity of the others; zero: none
   double spot = unset;             ///< m; radius of the beam; default: resolution.spacing
+  double range = unset;            ///< m; how far the beam sees; default: without end
   double window = 0;               ///< s; values are means over so long before a row
   double interval = unset;         ///< s between rows; default: that of history.csv
   std::string measured;            ///< CSV file of a measured trace, for the figure; absolute once read

@@ -4,7 +4,7 @@ import tomllib
 import unittest
 from ejecta_run import IMPACT_2D, IMPACT_3D, SOD, SOURCE, RunTest, ejecta, movie_frames, settings
 
-COARSE = {"basalt_impact": "3 mm", "pumice_impact": "4 mm", "rubber_balls_3d": "4 mm", "tensile_rod_3d": "0.7 mm",
+COARSE = {"basalt_impact": "3 mm", "gasgun_tube": "3 mm", "he_tube": "6 mm", "pumice_impact": "4 mm", "rubber_balls_3d": "4 mm", "tensile_rod_3d": "0.7 mm",
           "blast_10kt": "50 cm", "blast_block": "20 cm", "blast_hybrid": "40 cm"}
 SECTION = re.compile(r"^\[+([\w.<>]+)\]+ ")
 KEY = re.compile(r"^  (\S+) +\S")

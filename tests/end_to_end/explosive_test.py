@@ -3,7 +3,7 @@ import unittest
 
 from ejecta_run import SOURCE, RunTest, Table, ejecta, settings
 
-SECTION, TUBE = (SOURCE / "inputs" / f"{name}.toml" for name in ("cylinder_test", "he_tube"))
+SECTION, TUBE = (SOURCE / "inputs" / f"{name}.toml" for name in ("cylinder_test", "cylinder_test_3d"))
 PLAIN = {"insitu.enabled": "false", "output.history_interval": "0.2 us"}
 
 

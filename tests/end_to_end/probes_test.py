@@ -42,6 +42,12 @@ kind = "velocimeter"
 at = ["30 mm", "0 mm"]
 direction = [-1, 0]
 [[probes]]
+name = "short"
+kind = "velocimeter"
+at = ["30 mm", "0 mm"]
+direction = [-1, 0]
+range = "15 mm"
+[[probes]]
 name = "outside"
 at = ["50 mm", "0 mm"]
 [insitu]
@@ -104,6 +110,7 @@ class Probes(RunTest):
             last = 9.5e-3  # the surface is half of a stretched spacing before the last column
             self.assertAlmostEqual(velocity, RATE * last + SPEED, delta=1e-6)
             self.assertAlmostEqual(distance, 30e-3 - (last * (1 + RATE * t) + SPEED * t) - 0.5e-3, delta=0.1e-3)
+        self.assertTrue(all(math.isnan(v) for v in Table(out / "probe_short.csv").numbers("velocity")))
         self.assertTrue(all(math.isnan(p) for p in Table(out / "probe_outside.csv").numbers("pressure")))
         history = Table(out / "history.csv")
         self.assertAlmostEqual(history.numbers("probe beam velocity")[-1], RATE * 9.5e-3 + SPEED, delta=1e-6)
@@ -132,6 +139,7 @@ class Probes(RunTest):
                                   ("probes.rider.body=stripe", "expected the name of a body (strip), got \"stripe\""),
                                   ("probes.window.window=2us", "expected no more than the interval between rows, 500 ns, got 2 us"),
                                   ("probes.fixed.spot=1mm", "a point has none"),
+                                  ("probes.fixed.range=1mm", "a point has none"),
                                   ("probes.fixed.measured=none.csv", "expected a CSV file, got \"none.csv\"")):
             for command in ("check", "run"):
                 arguments = ["--out", self.folder / "refused"] if command == "run" else []

@@ -127,7 +127,8 @@ void follow(const Scene& scene, Findings& findings) {
 std::vector<std::string> coarse(const std::string& name) {
   const std::map<std::string, std::string> spacings{
       {"basalt_impact", "3 mm"},    {"expanding_ring", "1 mm"},   {"pumice_impact", "4 mm"},
-      {"pumice_impact_2d", "3 mm"}, {"he_shell", "4 mm"},         {"he_tube", "10.16 mm"},
+      {"pumice_impact_2d", "3 mm"}, {"he_shell", "4 mm"},         {"cylinder_test_3d", "10.16 mm"},
+      {"gasgun_tube", "3 mm"},      {"he_tube", "6 mm"},          {"he_tube_2d", "2 mm"},
       {"rubber_balls_3d", "4 mm"},  {"tensile_rod_2d", "0.5 mm"}, {"tensile_rod_3d", "0.7 mm"}};
   const auto found = spacings.find(name);
   return found == spacings.end() ? std::vector<std::string>{} : std::vector{"resolution.spacing=" + found->second};
