@@ -19,7 +19,6 @@ def make_view():
     tensor_shapes.show_polygons(view, shapes, "damage", source)
     if tensor:
         tensor_shapes.show_lines(view, tensor_shapes.draw(source, tensor_shapes.cracks))
-    view.scale_bar(0.03, 0.04, 0.2 * s["view_size"])
     return view
 
 

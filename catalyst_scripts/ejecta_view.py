@@ -1,31 +1,26 @@
 """What the pipelines of a run share: settings, units, fixed colour maps, and a view that fills its frame.
 
-A pipeline makes one View, shows sources in it with the representations it likes, and calls View.save(info) in
+A pipeline makes one View, puts particles, surfaces or what ParaView can show into it, and calls View.save(info) in
 catalyst_execute. Everything that could flicker (camera, colour ranges, units, image size) comes from the run's settings.
 Lengths are metres, all numbers SI; only what is written on an image is scaled to a readable unit.
+
+Spheres and surfaces are drawn by Ejecta's own painter (the module ejecta_paint, which the program brings), and so are
+bands, axes, bars and legends of all views; the rest by ParaView.
 """
 import functools
 import json
 import math
 import os
 
+import ejecta_paint
 import numpy
-from paraview.simple import (CreateRenderView, GetColorTransferFunction, GetScalarBar, Line, ProgrammableFilter,
-                             PVTrivialProducer, Show, Text, _DisableFirstRenderCameraReset)
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkIOImage import vtkPNGWriter
+from paraview.simple import (CreateRenderView, GetColorTransferFunction, PVTrivialProducer, Show,
+                             _DisableFirstRenderCameraReset)
+from vtkmodules.util.numpy_support import vtk_to_numpy
 
 INK = [0.13, 0.13, 0.15]
 PAPER = [1.0, 1.0, 1.0]
-EMPTY = [0.955, 0.958, 0.963]
-FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"
-
-# Light enough at both ends for dark lines on it: x, red, green, blue.
-UNDER_INK = [0.0, 0.66, 0.73, 0.84, 0.3, 1.0, 0.86, 0.55, 0.65, 0.97, 0.52, 0.25, 1.0, 0.84, 0.14, 0.16]
 NUMBER = "fragment_number"  # 0 is dust
-PALETTE = 120               # colours of fragments; numbers that differ by it look alike
-largest_fragment = 1        # its number, drawn in a colour of its own
 
 _read = functools.lru_cache(1)(json.loads)
 _ranges = {}
@@ -64,6 +59,12 @@ def fields(source):
     return [arrays.GetArrayName(i) for i in range(arrays.GetNumberOfArrays())]
 
 
+def column(source, name):
+    """An array of a channel as numpy's, without a copy; of vectors their magnitude."""
+    values = vtk_to_numpy(data_of(source).GetPointData().GetArray(name))
+    return values if values.ndim == 1 else numpy.sqrt((values.astype(float) ** 2).sum(axis=1))
+
+
 # ---- units ----------------------------------------------------------------------------------------------------------
 
 def readable_unit(unit, largest):
@@ -80,15 +81,8 @@ def readable_unit(unit, largest):
     return unit, 1.0
 
 
-def set_font(target, prefix=""):
-    """ParaView's built-in font where the system has no DejaVu."""
-    if os.path.exists(FONT):
-        setattr(target, prefix + "FontFamily", "File")
-        setattr(target, prefix + "FontFile", FONT)
-
-
 def style(field):
-    """How the run shows a field: unit, label, range [SI] or None, colours (x, red, green, blue, ... over the range)."""
+    """How the run shows a field: unit, label, range [SI] or None, name of the colour map, where it becomes logarithmic."""
     known = settings()["fields"]
     if field not in known:
         raise ValueError(f"field '{field}' unknown; this run has {', '.join(known)}")
@@ -102,74 +96,37 @@ def label(field):
 # ---- colour ---------------------------------------------------------------------------------------------------------
 
 def colour_range(field, source):
-    """The run's fixed range. Where nothing is known of it: that of the first frame, kept from then on."""
-    if field not in _ranges:
-        given = style(field)["range"]
-        if given is None:
-            array = data_of(source).GetPointData().GetArray(field)
-            low, high = array.GetFiniteRange(-1 if array.GetNumberOfComponents() > 1 else 0)
-            given = (low, high) if high > low else (low, low + max(abs(low), 1.0))
-        _ranges[field] = tuple(given)
+    """The run's fixed range. Where nothing is known of it: that of the first frame in which the field has one, kept
+    from then on."""
+    if field in _ranges:
+        return _ranges[field]
+    given = style(field)["range"]
+    if given is None:
+        values = column(source, field)
+        values = values[numpy.isfinite(values)]
+        if not values.size or values.min() == values.max():
+            return 0.0, 1.0
+        given = values.min(), values.max()
+    _ranges[field] = tuple(map(float, given))
     return _ranges[field]
 
 
-def colour_map(field, source, name=None, scale=1.0, under_ink=False):
-    """The lookup table of a field over its fixed range, times `scale`. Where there is no matter (NaN) it is pale.
+def colour_scale(field, source):
+    """The colours of a field over its fixed range: the ones of all pictures."""
+    known = style(field)
+    return ejecta_paint.ColourScale(known["map"], *colour_range(field, source), known["linear_to"])
 
-    `under_ink`: a map on which dark lines stand out, instead of the field's own.
-    """
-    low, high = colour_range(field, source)
-    colours = UNDER_INK if under_ink else style(field)["colours"]
-    if under_ink or style(field)["range"] is None:  # colours over [0, 1]
-        places = [low + x * (high - low) for x in colours[::4]]
-    else:
-        places = colours[::4]
-    table = GetColorTransferFunction(name or (field + " under ink" if under_ink else field))
+
+def colour_map(field, source):
+    """The same as ParaView's lookup table."""
+    table = GetColorTransferFunction(field)
     table.AutomaticRescaleRangeMode = "Never"
     table.ColorSpace = "RGB"
-    table.RGBPoints = [value for i, x in enumerate(places) for value in (scale * x, *colours[4 * i + 1:4 * i + 4])]
-    table.NanColor = EMPTY
+    table.RGBPoints = colour_scale(field, source).points()
+    table.NanColor = PAPER
     table.ScalarRangeInitialized = 1
     table.VectorMode = "Magnitude"
     return table
-
-
-# ---- particles ------------------------------------------------------------------------------------------------------
-
-def pick(data, output, field, behind):
-    """Copies what drawing spheres takes (places, radii, one field, in single precision) of the particles wanted.
-
-    Fragment numbers become places in the palette: 0 for dust, 1 for the largest, 2... for others. Dust is drawn small,
-    and in 3D only behind the middle, or it would hide everything.
-    """
-    s, arrays = settings(), data.GetPointData()
-
-    def column(name):
-        return vtk_to_numpy(arrays.GetArray(name))
-
-    places = [column("position_" + axis) for axis in "xyz"]
-    keep = slice(None) if behind is None else places[1] >= behind
-    if field == NUMBER and s["dimension"] == 3:
-        keep = (column(field) != 0) | (places[1] >= s["view_center"][1])
-    values = column(field)[keep]
-    points = numpy.empty((len(values), 3), numpy.float32)
-    for axis, place in enumerate(places):
-        points[:, axis] = place[keep]
-    if arrays.HasArray("smoothing_length"):
-        radius = (s["radius_per_smoothing_length"] * column("smoothing_length")[keep]).astype(numpy.float32)
-    else:
-        radius = numpy.full(len(values), s["particle_radius"], numpy.float32)
-    if field == NUMBER:
-        radius[values == 0] *= 0.25
-        values = numpy.where(values == largest_fragment, 1, numpy.where(values == 0, 0, 2 + values % PALETTE))
-
-    output.Initialize()  # it comes with the cells of the input
-    output.SetPoints(vtkPoints())
-    output.GetPoints().SetData(numpy_to_vtk(points, deep=True))
-    for name, values in (("radius", radius), (field, values.astype(numpy.float32))):
-        array = numpy_to_vtk(values, deep=True)
-        array.SetName(name)
-        output.GetPointData().AddArray(array)
 
 
 # ---- geometry -------------------------------------------------------------------------------------------------------
@@ -183,150 +140,150 @@ def _unit(a):
     return [x / length for x in a]
 
 
-def round_ticks(low, high, count=4):
-    """About `count` round numbers in [low, high]."""
-    step = 10.0 ** math.floor(math.log10((high - low) / count))
-    step *= next(f for f in (1, 2, 2.5, 5, 10) if (high - low) / (f * step) <= count + 0.5)
-    first = math.ceil(low / step - 1e-9)
-    return [i * step for i in range(first, math.floor(high / step + 1e-9) + 1)]
+def _axis(direction):
+    """Number of the axis of coordinates that a unit vector points along; None if there is none."""
+    along = [i for i in range(3) if direction[i] > 1 - 1e-9]
+    return along[0] if along else None
+
+
+def places_of(source):
+    """Three single-precision numbers a particle."""
+    return numpy.stack([column(source, "position_" + axis) for axis in "xyz"], axis=1, dtype=numpy.float32, casting="same_kind")
+
+
+def radii_of(source):
+    """Of drawn particles: those that fill the room there is."""
+    s = settings()
+    if "smoothing_length" in fields(source):
+        return (s["radius_per_smoothing_length"] * column(source, "smoothing_length")).astype(numpy.float32)
+    return numpy.full(data_of(source).GetNumberOfPoints(), s["particle_radius"], numpy.float32)
 
 
 # ---- views ----------------------------------------------------------------------------------------------------------
 
 class View:
-    """An off-screen view of fixed size, light background and parallel projection, with title and time stamp."""
+    """A picture of the run's size with one pane: a band with title and time above, a colour bar or a legend beside it.
 
-    def __init__(self, name, title):
-        _DisableFirstRenderCameraReset()
-        s = settings()
-        self.name = name
-        self.size = s["image_size"]
-        self.view = CreateRenderView()
-        v = self.view
-        v.ViewSize = self.size
-        v.UseColorPaletteForBackground = 0
-        v.BackgroundColorMode = "Single Color"
-        v.Background = PAPER
-        v.OrientationAxesVisibility = 0
-        v.CenterAxesVisibility = 0
-        v.CameraParallelProjection = 1
-        v.LODThreshold = 1e9
-        self.title = self.text(s["scene_title"], 0.02, 0.945, 22, bold=True)
-        self.subtitle = self.text(title, 0.02, 0.905, 16)
-        self.stamp = self.text("", 0.80, 0.945, 19)
-        self.time_unit, self.time_scale = readable_unit("s", s["time_end"] or 0)
+    `subtitle` says what is shown. The scene is seen along parallel lines.
+    """
 
-    @property
-    def aspect(self):
-        return self.size[0] / self.size[1]
+    def __init__(self, name, subtitle, key_width=6):
+        self.name, self.subtitle, self.key_width = name, subtitle, key_width
+        self.size = settings()["image_size"]
+        self.solids = {}  # arguments of draw_solids
+        self.bar = self.entries = self._paraview = None
 
-    def text(self, words, x, y, points, bold=False):
-        """Words at a fraction (x, y) of the frame; returns the source, whose Text may change."""
-        source = Text()
-        source.Text = words
-        display = Show(source, self.view)
-        display.WindowLocation = "Any Location"
-        display.Position = [x, y]
-        display.FontSize = max(6, round(points * self.size[1] / 720))
-        display.Color = INK
-        display.BackgroundColor = [*PAPER, 0.8]  # ejecta that fly behind the words must not make them hard to read
-        display.Padding = max(2, round(4 * self.size[1] / 720))
-        display.ShowBorder, display.BorderThickness = "Always", 0.0  # there is no background without a border
-        set_font(display)
-        display.Bold = 1 if bold else 0
-        return source
+    # -- camera --
 
     def look_at_scene(self):
         """The run's fixed camera: obliquely from above in 3D (z up, x to the right), from the front in the plane."""
         s = settings()
         if s["dimension"] == 2:
-            return self.look(s["view_center"], s["view_size"], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0])
+            return self.look(s["view_center"], s["view_width"], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0], s["view_height"])
         turn, tilt = math.radians(18), math.radians(22)
         direction = [-math.sin(turn) * math.cos(tilt), math.cos(turn) * math.cos(tilt), -math.sin(tilt)]
-        return self.look(s["view_center"], s["view_size"], direction, [0.0, 0.0, 1.0])
+        return self.look(s["view_center"], s["view_width"], direction, [0.0, 0.0, 1.0], s["view_height"])
 
-    def look(self, centre, width, direction, up):
-        """Looks along `direction` at `centre`; `width` [m] fills the frame from left to right."""
-        v = self.view
-        v.CameraFocalPoint = centre
-        v.CameraPosition = [c - 10 * width * d for c, d in zip(centre, direction)]
-        v.CameraViewUp = up
-        v.CenterOfRotation = centre
-        v.CameraParallelScale = 0.5 * width / self.aspect
+    def look(self, centre, width, direction, up, height=None):
+        """Looks along `direction` at `centre`; `width` and `height` [m] (default: width) are seen at least."""
+        self.centre, self.direction = centre, _unit(direction)
+        self.right = _unit(_cross(self.direction, up))
+        self.up = _cross(self.right, self.direction)
+        x, y = (sum(c * e for c, e in zip(centre, edge)) for edge in (self.right, self.up))
+        w, h = 0.5 * width, 0.5 * (height or width)
+        self.layout = ejecta_paint.Layout(*self.size, 1, [x - w, y - h, x + w, y + h], key_width=self.key_width)
         return self
 
+    # -- what is seen --
+
+    def spheres(self, places, radii, rgb):
+        """Particles as shaded spheres, in the plane as discs; colours 0xRRGGBB."""
+        self.solids.update(flat=settings()["dimension"] == 2, places=places, radii=radii, rgb=rgb)
+
+    def particles(self, source, field, behind=None):
+        """Particles as spheres of their own size coloured by a field; `behind`: only those with y above it."""
+        keep = slice(None) if behind is None else column(source, "position_y") >= behind
+        rgb = colour_scale(field, source).colours(column(source, field)[keep])
+        self.spheres(places_of(source)[keep], radii_of(source)[keep], rgb)
+        self.colour_bar(field, source)
+
+    def surface(self, points, normals, rgb, triangles, plate=None, corner=(0, 0, 0), across=(1, 0, 0), upwards=(0, 0, 1)):
+        """Triangles with normals and colours at their corners; the `plate` is a picture in space: the face of a cut."""
+        self.solids.update(points=points, normals=normals, point_rgb=rgb, triangles=triangles)
+        if plate is not None:
+            self.solids.update(plate=plate, corner=corner, across=across, upwards=upwards)
+
     def show(self, source, representation, **properties):
-        display = Show(source, self.view)
+        """Anything else, drawn by ParaView."""
+        display = Show(source, self.paraview)
         display.SetRepresentationType(representation)
         for name, value in properties.items():
             setattr(display, name, value)
         return display
 
-    def spheres(self, source, field, table=None, behind=None):
-        """Particles as shaded spheres (discs in the plane) of their own size coloured by a field; `behind`: only those with y above it."""
-        picked = ProgrammableFilter(Input=source, OutputDataSetType="vtkPolyData")
-        picked.Script = (f"import ejecta_view\n"
-                         f"ejecta_view.pick(inputs[0].VTKObject, output.VTKObject, {field!r}, {behind!r})\n")
-        display = self.show(picked, "Point Gaussian", Emissive=0, Ambient=0.3, Diffuse=0.8, ScaleByArray=1,
-                            ShaderPreset="Sphere" if settings()["dimension"] == 3 else "Plain circle",
-                            SetScaleArray=["POINTS", "radius"], UseScaleFunction=0, GaussianRadius=1.0)
-        display.ColorArrayName = ["POINTS", field]
-        display.LookupTable = table or colour_map(field, source)
-        return display
+    @property
+    def paraview(self):
+        """ParaView's render view, with the camera of this one."""
+        if self._paraview is None:
+            _DisableFirstRenderCameraReset()
+            self._paraview = v = CreateRenderView()
+            v.ViewSize = [2 * pixels for pixels in self.layout.pane_size]  # two by two are averaged
+            v.UseColorPaletteForBackground = 0
+            v.BackgroundColorMode = "Single Color"
+            v.Background = PAPER
+            v.OrientationAxesVisibility = 0
+            v.CenterAxesVisibility = 0
+            v.CameraParallelProjection = 1
+            v.LODThreshold = 1e9
+            height = self.layout.pixel * self.layout.pane_size[1]
+            v.CameraFocalPoint = self.centre
+            v.CameraPosition = [c - 10 * height * d for c, d in zip(self.centre, self.direction)]
+            v.CameraViewUp = self.up
+            v.CenterOfRotation = self.centre
+            v.CameraParallelScale = 0.5 * height
+        return self._paraview
 
-    def scale_bar(self, x, y, longest):
-        """A line of a round length, at most `longest` [m], from the fraction (x, y) of the frame to the right."""
-        power = 10.0 ** math.floor(math.log10(longest))
-        length = max(f * power for f in (1, 2, 5) if f * power <= longest)
-        v = self.view
-        width = 2 * v.CameraParallelScale * self.aspect
-        toward_eye = _unit([p - c for p, c in zip(v.CameraPosition, v.CameraFocalPoint)])
-        right = _unit(_cross(v.CameraViewUp, toward_eye))
-        up = _cross(toward_eye, right)
-        start = [c + (x - 0.5) * width * r + (y - 0.5) * width / self.aspect * u + width * e
-                 for c, r, u, e in zip(v.CameraFocalPoint, right, up, toward_eye)]
-        line = Line()
-        line.Point1, line.Point2 = start, [p + length * r for p, r in zip(start, right)]
-        self.show(line, "Wireframe", AmbientColor=INK, DiffuseColor=INK, LineWidth=3, Ambient=1, Diffuse=0)
-        unit, scale = readable_unit("m", length)
-        self.text(f"{length * scale:g} {unit}", x, y + 0.008, 14)
+    # -- what is written beside it --
 
-    def colour_bar(self, field, source, x, y, length, upright=False, under_ink=False):
-        """A colour bar titled `field [unit]` that counts in a readable unit; (x, y) is its lower left corner."""
-        unit, scale = readable_unit(style(field)["unit"], max(map(abs, colour_range(field, source))))
-        table = colour_map(field, source, f"{self.name} bar {field}", scale, under_ink)
-        bar = GetScalarBar(table, self.view)
-        bar.Title = label(field) + (f" [{unit}]" if unit else "")
-        bar.ComponentTitle = ""
-        bar.Orientation = "Vertical" if upright else "Horizontal"
-        bar.WindowLocation = "Any Location"
-        bar.Position = [x, y]
-        bar.ScalarBarLength = length
-        bar.ScalarBarThickness = max(6, round(14 * self.size[1] / 720))
-        bar.TitleColor = bar.LabelColor = INK
-        bar.TitleFontSize = bar.LabelFontSize = max(6, round(15 * self.size[1] / 720))
-        set_font(bar, "Title")
-        set_font(bar, "Label")
-        bar.AutomaticLabelFormat = 0
-        bar.LabelFormat = "%-.4g"
-        bar.AddRangeLabels = 0
-        bar.UseCustomLabels = 1
-        bar.CustomLabels = round_ticks(*(scale * value for value in colour_range(field, source)))
-        bar.DrawTickMarks = 1
-        bar.DrawBackground, bar.BackgroundColor = 1, [*PAPER, 0.8]
-        bar.BackgroundPadding = 4
-        bar.Visibility = 1
-        return bar
+    def colour_bar(self, field, source):
+        """A colour bar under `field [unit]` beside the pane."""
+        self.bar = colour_scale(field, source), label(field), style(field)["unit"]
+
+    def legend(self, heading, entries):
+        """A list of (colour, words) beside the pane."""
+        self.entries = heading, entries
+
+    # -- the picture --
 
     def save(self, info):
         """Draws the view and writes images/<name>_<step>.png."""
-        self.view.ViewTime = info.time
-        self.stamp.Text = f"t = {info.time * self.time_scale:.2f} {self.time_unit}"
-        folder = os.path.join(settings()["run_folder"], "images")
-        image = self.view.SMProxy.CaptureWindow(1)
-        writer = vtkPNGWriter()
-        writer.SetFileName(os.path.join(folder, f"{self.name}_{info.timestep:06d}.png"))
-        writer.SetCompressionLevel(1)
-        writer.SetInputData(image)
-        writer.Write()
+        s = settings()
+        sheet = ejecta_paint.Sheet(self.layout, s["scene_title"], self.subtitle, info.time, s["time_end"] or 0.0)
+        if self._paraview is not None:
+            sheet.put(0, self._captured(info))
+        elif self.solids:
+            camera = ejecta_paint.Camera(self.centre, self.right, self.up, self.layout.pixel)
+            sheet.put(0, ejecta_paint.draw_solids(camera, self.layout.pane_size, **self.solids))
+        axes = _axis(self.right), _axis(self.up)
+        if None in axes:
+            sheet.scale_bar(0, "seen obliquely, z upwards" if s["dimension"] == 3 else "")
+        else:
+            sheet.axes(0, ["xyz"[axis] for axis in axes])
+        if self.bar:
+            sheet.colour_bar(0, *self.bar)
+        if self.entries:
+            sheet.legend(0, *self.entries)
+        sheet.save(path_of(self.name, info))
+
+    def _captured(self, info):
+        self._paraview.ViewTime = info.time
+        image = self._paraview.SMProxy.CaptureWindow(1)
+        width, height, _ = image.GetDimensions()
+        parts = vtk_to_numpy(image.GetPointData().GetScalars()).astype(numpy.uint32).reshape(height, width, -1)[::-1]
         image.UnRegister(None)  # CaptureWindow hands its image over: nobody else would ever release it
+        return parts[..., 0] << 16 | parts[..., 1] << 8 | parts[..., 2]
+
+
+def path_of(name, info):
+    """Where the picture of a view goes."""
+    return os.path.join(settings()["run_folder"], "images", f"{name}_{info.timestep:06d}.png")

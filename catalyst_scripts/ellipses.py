@@ -20,7 +20,6 @@ def make_view():
     shapes = tensor_shapes.draw(source, tensor_shapes.ellipses, field, 0.95 * spacing, True, False)
     tensor_shapes.show_polygons(view, shapes, field, source)
     tensor_shapes.show_lines(view, tensor_shapes.draw(source, tensor_shapes.ellipses, field, support, False, True))
-    view.scale_bar(0.03, 0.04, 0.2 * s["view_size"])
     return view
 
 

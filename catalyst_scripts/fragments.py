@@ -1,10 +1,8 @@
 # script-version: 2.0
-"""The particles coloured by the fragment they belong to: the largest of the target grey, dust small and pale."""
-import colorsys
-import math
-
+"""The particles coloured by the rank of their fragment: the heaviest are strong, what follows pales, dust is faint."""
+import ejecta_paint
+import numpy
 from paraview import catalyst
-from paraview.simple import GetColorTransferFunction
 
 import ejecta_view as ejecta
 
@@ -13,52 +11,52 @@ source = ejecta.channel("particles")
 pieces = ejecta.channel("fragments")
 view = None
 
-DUST = (0.80, 0.80, 0.82)
-LARGEST = (0.45, 0.47, 0.50)
+NAMED = 5   # fragments in the legend
+PALE = 200  # ranks with a colour of their own
+DUST_SIZE = 0.35  # of a whole particle
 
 
-def find_largest():
-    """Number of the fragment with most of the target's matter; -1, which no fragment has, where none has any."""
+def ranks():
+    """Rank of each fragment by its number, 0 for dust, and their masses, largest first."""
     if not ejecta.has_data(pieces):
-        return -1
-    arrays = ejecta.data_of(pieces).GetPointData()
-    mass, number = arrays.GetArray("target_mass"), arrays.GetArray("number")
-    largest = max(range(mass.GetNumberOfTuples()), key=mass.GetTuple1)
-    return int(number.GetTuple1(largest)) if mass.GetTuple1(largest) > 0 else -1
+        return numpy.zeros(1, int), numpy.zeros(0)
+    mass, number = ejecta.column(pieces, "mass"), ejecta.column(pieces, "number").astype(int)
+    order = numpy.lexsort((number, -mass))  # of equal masses the older one first
+    rank = numpy.zeros(number.max() + 1, int)
+    rank[number[order]] = 1 + numpy.arange(len(order))
+    return rank, mass[order]
 
 
-def make_colours():
-    """Neighbouring numbers get hues far apart: steps of the golden section round the colour circle."""
-    colours = [DUST, LARGEST]
-    for n in range(ejecta.PALETTE):
-        hue = n * (math.sqrt(5) - 1) / 2 % 1
-        colours.append(colorsys.hsv_to_rgb(hue, (0.55, 0.75, 0.9)[n % 3], (0.95, 0.80, 0.65)[n // 3 % 3]))
-    table = GetColorTransferFunction(ejecta.NUMBER)
-    table.AutomaticRescaleRangeMode = "Never"
-    table.ColorSpace = "RGB"
-    table.Discretize = 1
-    table.NumberOfTableValues = len(colours)
-    # Table entry i covers [i - 1/2, i + 1/2) and takes the colour at its place between the first and the last point.
-    last = len(colours) - 1
-    spread = [-0.5 + i * (last + 1) / last for i in range(last + 1)]
-    table.RGBPoints = [value for x, colour in zip(spread, colours) for value in (x, *colour)]
-    table.ScalarRangeInitialized = 1
-    return table
-
-
-def make_view():
-    view = ejecta.View("fragments", f"fragments, the largest of {ejecta.settings()['fragment_target']} grey")
-    view.look_at_scene()
-    view.spheres(source, ejecta.NUMBER, make_colours())
-    view.scale_bar(0.03, 0.04, 0.2 * ejecta.settings()["view_size"])
-    return view
+def entries(mass, colours):
+    unit = ejecta.style("mass")["unit"]
+    total = ejecta.column(source, "mass").sum()
+    words = []
+    for rank, m in enumerate(mass[:NAMED], 1):
+        amount = f"{1e3 * m:.3g} g" if unit == "kg" else f"{m:.3g} {unit}"
+        words.append((int(colours[rank]), f"{rank}   {amount}   {100 * m / total:.3g} %"))
+    if len(mass) > NAMED:
+        words.append((int(colours[NAMED + 1]), f"{len(mass) - NAMED} more   {100 * mass[NAMED:].sum() / total:.3g} %"))
+    words.append((int(colours[0]), f"dust   {max(0.0, 100 * (1 - mass.sum() / total)):.3g} %"))
+    return words
 
 
 def catalyst_execute(info):
     global view
     if not ejecta.has_data(source) or ejecta.NUMBER not in ejecta.fields(source):
         return
-    ejecta.largest_fragment = find_largest()
+    s = ejecta.settings()
     if view is None:
-        view = make_view()
+        view = ejecta.View("fragments", "fragments by mass", key_width=15).look_at_scene()
+    rank, mass = ranks()
+    colours = numpy.array([ejecta_paint.rank_colour(r) for r in range(PALE)], numpy.uint32)
+    number = ejecta.column(source, ejecta.NUMBER)
+    own = numpy.where(number < len(rank), rank[numpy.minimum(number, len(rank) - 1)], 0)
+    own[own >= PALE] = NAMED + 1 + own[own >= PALE] % (PALE - NAMED - 1)
+    keep = slice(None)
+    if s["dimension"] == 3:  # dust before the middle would hide everything
+        keep = (own != 0) | (ejecta.column(source, "position_y") >= s["view_center"][1])
+    radii = ejecta.radii_of(source)
+    radii[own == 0] *= DUST_SIZE
+    view.spheres(ejecta.places_of(source)[keep], radii[keep], colours[own[keep]])
+    view.legend("fragments, largest first", entries(mass, colours))
     view.save(info)

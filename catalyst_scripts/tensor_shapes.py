@@ -31,19 +31,22 @@ def look_at_layer(view):
     s = ejecta.settings()
     if s["dimension"] == 2:
         return view.look_at_scene()
-    return view.look(s["view_center"], s["view_size"], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0])
+    return view.look(s["view_center"], s["view_width"], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], s["view_height"])
 
 
 def show_polygons(view, drawn, field, source):
     """Shows what draw() made, coloured by `field` of the channel, with its colour bar."""
     view.show(drawn, "Surface", Ambient=1, Diffuse=0, ColorArrayName=["CELLS", field],
-              LookupTable=ejecta.colour_map(field, source, under_ink=True))
-    view.colour_bar(field, source, 0.60, 0.035, 0.36, under_ink=True)
+              LookupTable=ejecta.colour_map(field, source))
+    view.colour_bar(field, source)
 
 
 def show_lines(view, drawn):
-    view.show(drawn, "Wireframe", Ambient=1, Diffuse=0, AmbientColor=ejecta.INK, DiffuseColor=ejecta.INK,
-              LineWidth=max(1.0, 1.6 * view.size[1] / 720), ColorArrayName=[None, ""])
+    """Dark lines with a light rim: they stand out on every colour."""
+    width = max(1.0, 2.0 * view.size[1] / 720)
+    for colour, lines in ((ejecta.PAPER, 2.2 * width), (ejecta.INK, width)):
+        view.show(drawn, "Wireframe", Ambient=1, Diffuse=0, AmbientColor=colour, DiffuseColor=colour, LineWidth=lines,
+                  ColorArrayName=[None, ""])
 
 
 def column(data, name):
@@ -96,7 +99,7 @@ def ellipses(data, output, field, scale, filled, chosen_only):
         identity = column(data, "id")
         keep = identity % max(1, int(1.03 * len(identity) / FULL_SUPPORTS)) == 0
     if not filled:
-        lift = 1e-3 * ejecta.settings()["view_size"]
+        lift = 1e-3 * ejecta.settings()["view_width"]
     corners = 20 if filled else 49
     right, up, _ = picture_axes()
     turn = 2 * math.pi * numpy.arange(corners) / (corners if filled else corners - 1)
@@ -124,7 +127,7 @@ def cracks(data, output):
     s = ejecta.settings()
     right, up, _ = picture_axes()
     spacing = numpy.median(column(data, "smoothing_length")) / s["nodes_per_h"]
-    length = max(spacing, SHORTEST_STROKE * s["view_size"])
+    length = max(spacing, SHORTEST_STROKE * s["view_width"])
     chosen = most_damaged(data, length)
     strokes, values = [], []
     for k in range(s["dimension"]):
@@ -133,7 +136,7 @@ def cracks(data, output):
         along[:, right], along[:, up] = -across[:, up], across[:, right]
         seen = numpy.hypot(along[:, right], along[:, up]) > LEAST_DAMAGE
         half = 0.5 * length * along[seen]
-        centre = centres(data, chosen[seen], 2e-3 * s["view_size"])
+        centre = centres(data, chosen[seen], 2e-3 * s["view_width"])
         strokes.append(numpy.stack([centre - half, centre + half], axis=1))
         values.append(column(data, f"damage_{k + 1}")[chosen][seen])
     fill(output, numpy.concatenate(strokes), 2, False, "damage_1", numpy.concatenate(values))

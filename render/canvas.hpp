@@ -1,19 +1,16 @@
 #pragma once
 /// A drawing surface of RGB pixels; coordinates in pixels from the upper left corner.
-#include <cstdint>
-#include <filesystem>
 #include <memory>
-#include <span>
 #include <string>
 
-#include "render/colour_map.hpp"
+#include "render/raster.hpp"
 
 struct _cairo;
 struct _cairo_surface;
 
 namespace ejecta {
 
-struct Box {
+struct PixelBox {
   double x, y, width, height;
 };
 
@@ -23,16 +20,18 @@ class Canvas {
  public:
   Canvas(int width, int height, Colour background);
 
-  void fill(Box box, Colour colour);
-  void outline(Box box, Colour colour, double line_width);
+  void fill(PixelBox box, Colour colour);
+  void outline(PixelBox box, Colour colour, double line_width);
   void line(double x0, double y0, double x1, double y1, Colour colour, double line_width);
   /// `y` is the base line of the text. Returns its width.
   double text(double x, double y, const std::string& words, double size, Colour colour, Align align = Align::left,
               bool bold = false);
-  /// Stretches width * height colours (0xRRGGBB, top row first) over the box.
-  void picture(Box box, std::span<const std::uint32_t> rgb, int width, int height);
-  /// Throws OutputError if the file cannot be written.
-  void save_png(const std::filesystem::path& file) const;
+  double width_of(const std::string& words, double size) const;
+  /// Words that begin at the left of the box and end, cut short with dots, within it.
+  void text_within(PixelBox box, double y, std::string words, double size, Colour colour);
+  /// Stretches a picture over the box.
+  void picture(PixelBox box, const Raster& picture);
+  Raster raster() const;
 
  private:
   struct Deleter {

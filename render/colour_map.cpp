@@ -2,6 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "base/parallel.hpp"
+#include "render/raster.hpp"
 
 namespace ejecta {
 
@@ -32,11 +37,6 @@ const ControlPoints& control_points(ColourMap map) {
   return viridis;
 }
 
-Colour unpack(std::uint32_t rgb) {
-  return {static_cast<double>(rgb >> 16 & 255u) / 255, static_cast<double>(rgb >> 8 & 255u) / 255,
-          static_cast<double>(rgb & 255u) / 255};
-}
-
 Colour mixed(Colour a, Colour b, double t) {
   return {a.red + t * (b.red - a.red), a.green + t * (b.green - a.green), a.blue + t * (b.blue - a.blue)};
 }
@@ -48,7 +48,24 @@ Colour map_colour(ColourMap map, double fraction) {
   const double place = std::clamp(fraction, 0.0, 1.0) * (points.size() - 1);
   const std::size_t k = std::min(static_cast<std::size_t>(place), points.size() - 2);
   const double t = place - static_cast<double>(k);
-  return mixed(unpack(points[k]), unpack(points[k + 1]), t);
+  return mixed(unpacked(points[k]), unpacked(points[k + 1]), t);
+}
+
+namespace {
+constexpr std::pair<ColourMap, const char*> names[] = {{ColourMap::viridis, "viridis"},
+                                                       {ColourMap::inferno, "inferno"},
+                                                       {ColourMap::plasma, "plasma"},
+                                                       {ColourMap::cool_warm, "cool_warm"}};
+}  // namespace
+
+std::string name_of(ColourMap map) {
+  return std::ranges::find(names, map, &std::pair<ColourMap, const char*>::first)->second;
+}
+
+ColourMap colour_map_named(const std::string& name) {
+  for (const auto& [map, word] : names)
+    if (name == word) return map;
+  throw std::invalid_argument("colour map '" + name + "' unknown; there are viridis, inferno, plasma, cool_warm");
 }
 
 Colour ColourScale::at(double value) const {
@@ -58,31 +75,64 @@ Colour ColourScale::at(double value) const {
   return mixed(colours[k - 1], colours[k], t);
 }
 
-ColourScale colour_scale(ColourMap map, double min, double max) {
+double ColourScale::place(double value) const {
+  const auto laid = [&](double v) { return linear_to > 0 ? std::asinh(v / linear_to) : v; };
+  return (laid(value) - laid(min)) / (laid(max) - laid(min));
+}
+
+double ColourScale::value(double place) const {
+  if (!(linear_to > 0)) return min + place * (max - min);
+  const double low = std::asinh(min / linear_to), high = std::asinh(max / linear_to);
+  return linear_to * std::sinh(low + place * (high - low));
+}
+
+ColourScale colour_scale(ColourMap map, double min, double max, double linear_to) {
   const bool diverging = map == ColourMap::cool_warm && min < 0;
   if (map == ColourMap::cool_warm && !diverging) map = ColourMap::inferno;
-  ColourScale scale;
-  const ControlPoints& points = control_points(map);
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const double fraction = static_cast<double>(k) / (points.size() - 1);
-    const double below = min * (1 - 2 * fraction), beyond = std::max(max, -1e-9 * min) * (2 * fraction - 1);
-    scale.values.push_back(!diverging ? min + fraction * (max - min) : fraction < 0.5 ? below : beyond);
-    scale.colours.push_back(unpack(points[k]));
+  const auto laid = [&](double v) { return linear_to > 0 ? std::asinh(v / linear_to) : v; };
+  const auto back = [&](double u) { return linear_to > 0 ? linear_to * std::sinh(u) : u; };
+  const double low = laid(min), high = diverging ? std::max(laid(max), -1e-9 * low) : laid(max);
+  ColourScale scale{min, max, linear_to, {}, {}};
+  const int last = linear_to > 0 ? 64 : 8;  // as many lines as follow a logarithm closely
+  for (int k = 0; k <= last; ++k) {
+    const double fraction = static_cast<double>(k) / last;
+    const double below = low * (1 - 2 * fraction), beyond = high * (2 * fraction - 1);
+    scale.values.push_back(back(!diverging ? low + fraction * (high - low) : fraction < 0.5 ? below : beyond));
+    scale.colours.push_back(map_colour(map, fraction));
   }
   return scale;
 }
 
-Colour fragment_colour(std::int32_t number) {
-  if (number <= 0) return {0.93, 0.93, 0.93};
-  if (number == 1) return {0.55, 0.55, 0.55};
-  // Steps of the golden ratio around the hue circle keep neighbouring numbers apart.
-  const double hue = std::fmod(0.08 + 0.6180339887498949 * number, 1.0) * 6;
-  const double value = number % 2 ? 0.9 : 0.7;
+std::vector<std::uint32_t> coloured(std::span<const double> values, const ColourScale& scale, std::uint32_t nothing) {
+  constexpr int steps = 1024;
+  std::vector<std::uint32_t> table;
+  for (int k = 0; k <= steps; ++k) table.push_back(packed(scale.at(scale.value(static_cast<double>(k) / steps))));
+  std::vector<std::uint32_t> rgb(values.size());
+  parallel_for(0, rgb.size(), [&](std::size_t i) {
+    const double place = scale.place(values[i]);
+    rgb[i] = std::isnan(place) ? nothing
+                               : table[static_cast<std::size_t>(std::lround(steps * std::clamp(place, 0.0, 1.0)))];
+  });
+  return rgb;
+}
+
+Colour rank_colour(int rank) {
+  constexpr std::uint32_t strong[] = {0xD55E00, 0x0072B2, 0x009E73, 0x8E44AD, 0xE6A800};
+  if (rank <= 0) return {0.80, 0.81, 0.83};
+  if (rank <= 5) return unpacked(strong[rank - 1]);
+  // Steps of the golden section round the circle of hues keep neighbours apart.
+  const double hue = std::fmod(0.08 + 0.6180339887498949 * rank, 1.0) * 6;
+  const double saturation = 0.20 + 0.25 / (1 + 0.05 * (rank - 6)), value = rank % 2 ? 0.84 : 0.70;
   const auto channel = [&](double shift) {
     const double h = std::fmod(hue + shift, 6.0);
-    return value * (1 - 0.65 * std::clamp(std::min(h, 4 - h), 0.0, 1.0));
+    return value * (1 - saturation * std::clamp(std::min(h, 4 - h), 0.0, 1.0));
   };
   return {channel(5), channel(3), channel(1)};
+}
+
+Colour body_colour(int body) {
+  constexpr std::uint32_t colours[] = {0xC9B08A, 0x4A78A8, 0x7FA667, 0xB9645A, 0x8D7BB0, 0xD9A441};
+  return unpacked(colours[static_cast<std::size_t>(std::max(0, body)) % std::size(colours)]);
 }
 
 }  // namespace ejecta

@@ -176,7 +176,7 @@ set border 11
 set key bmargin center horizontal
 plot 'largest_fragment.csv' using ($1 / t):($2 * 100) with lines ls 1 title 'largest fragment', \
      '' using ($1 / t):($4 * 100) with lines ls 2 title 'dust', \
-     '' using ($1 / t):3 axes x1y2 with lines ls 4 dt 2 title 'fragments (right)'
+     '' using ($1 / t):3 axes x1y2 with steps ls 4 dt 2 title 'fragments (right)'
 )";
 }
 
@@ -188,23 +188,27 @@ std::optional<std::string> energy(const fs::path& run, const FigureSettings& set
   for (const std::size_t column : {kinetic, internal, total, error})
     if (column == CsvTable::npos || table.rows.empty()) return {};
   return preamble("energy", settings.title, "energy") + fmt::format(fmt::runtime(time_axis), "history.csv") +
-         fmt::format(R"(set multiplot layout 2,1
+         fmt::format(R"(stats 'history.csv' using {2} nooutput
+largest = abs(STATS_max) > abs(STATS_min) ? abs(STATS_max) : abs(STATS_min)
+e = factor(largest)
+unit = prefix(largest)
+set multiplot layout 2,1
 set lmargin 11
 set rmargin 4
 unset xlabel
 set size 1,0.66
 set origin 0,0.34
-set ylabel 'energy [{4}]'
+set ylabel sprintf('energy [%s{4}]', unit)
 set key bmargin center horizontal
-plot 'history.csv' using ($1 / t):{0} with lines ls 2 title 'kinetic', '' using ($1 / t):{1} with lines ls 1 title 'internal', \
-     '' using ($1 / t):{2} with lines lc rgb '#222222' lw 1.5 dt 2 title 'total'
+plot 'history.csv' using ($1 / t):(${0} / e) with lines ls 2 title 'kinetic', '' using ($1 / t):(${1} / e) with lines ls 1 title 'internal', \
+     '' using ($1 / t):(${2} / e) with lines lc rgb '#222222' lw 1.5 dt 2 title 'total'
 unset title
 set key off
 set size 1,0.34
 set origin 0,0
 set xlabel sprintf('time [%ss]', prefix(t))
 set ylabel 'relative error'
-set format y '%.0e'
+set format y '%g'
 plot 'history.csv' using ($1 / t):{3} with lines ls 4
 unset multiplot
 )",

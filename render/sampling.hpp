@@ -53,6 +53,7 @@ struct SampledImage {
 
 /// Slice through y = plane_y (3D) or of the whole domain (plane strain): per pixel centre and field A the Shepard mean
 /// sum_j V_j A_j W_j / sum_j V_j W_j, V = m/rho; NaN where the filling sum_j V_j W_j is below `least_filling`.
+/// Damage is that of the particle which is nearest by its own kernel, and no mean.
 /// The field `filling` [1] comes last. Bit for bit the same for every number of threads.
 SampledImage sample_slice(const ParticleView& particles, std::span<const FieldView> fields, const KernelShape& kernel,
                           const PixelGrid& grid, double plane_y = 0, double least_filling = 0.3);

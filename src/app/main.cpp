@@ -135,7 +135,7 @@ int main(int argc, char** argv) {
                   "buttons for what control does, for those who have the address that is printed");
   CLI::App* movie = app.add_subcommand("movie", "make the movies of a run folder again");
   movie->add_option("folder", folder, "run folder")->required();
-  movie->add_option("--fps", frames_per_second, "frames per second (default: about eight seconds in all)");
+  movie->add_option("--fps", frames_per_second, "frames per second (default: 24, fewer for short movies)");
   CLI::App* replay = app.add_subcommand("replay", "show checkpoints and snapshots of a run folder to pipelines again");
   ReplayOptions replay_options;
   ExportOptions export_options;

@@ -72,6 +72,8 @@ int movie_command(const std::string& folder, int frames_per_second);
 int replay_command(const ReplayOptions& options);
 int export_command(const ExportOptions& options);
 int info_command();
+/// With version and commit.
+std::string program_name();
 /// Leaves a line of control for the run that goes on in the folder.
 int control_command(const std::string& folder, const std::vector<std::string>& words);
 /// Serves a run folder to this machine until it is interrupted. Throws InputError if it is none or the port is taken.

@@ -120,6 +120,8 @@ int control_command(const std::string& folder, const std::vector<std::string>& w
   return exit_code::done;
 }
 
+std::string program_name() { return "Ejecta " EJECTA_VERSION ", commit " EJECTA_COMMIT; }
+
 int info_command() {
   fmt::print("ejecta {} (commit {})\ncompiler g++ {}\nvector registers {} bits\ncores {}\nmaterials {}\n",
              EJECTA_VERSION, EJECTA_COMMIT, __VERSION__,

@@ -140,6 +140,8 @@ void conclude(const Simulation& sim, const Frames& frames, const Job& job, Outpu
     if (!figure.problem.empty()) spdlog::warn("{}: {}", figure.file.filename().string(), figure.problem);
   if (frames.images() > 0)
     outputs.write("movies", Outputs::Loss::until_next, [&] {
+      write_title_card(job.folder, heading(sim.scene),
+                       {"scene " + sim.scene.name, program_name()});
       for (const std::string& problem : make_movies(job.folder).problems) spdlog::warn("movie: {}", problem);
     });
   write("timers.csv", [&](const fs::path& file) { write_timers(file, wall_times(sim)); });

@@ -38,7 +38,8 @@ const std::array written{
              "probe_*.png", "probe_*.gp"}},
     Written{"",
             {"resolved.toml", "run.log", "insitu.log", "history.csv", "timers.csv", "fragments.csv", "shock.csv",
-             "fragment_distribution.csv", "fragments_measured.csv", "largest_fragment.csv", "summary.json", "movie_*.mp4", "probe_*.csv", "control", "control.#",
+             "fragment_distribution.csv", "fragments_measured.csv", "largest_fragment.csv", "summary.json", "movie_*.mp4",
+             "montage.mp4", "title.png", "probe_*.csv", "control", "control.#",
              "control.taken"}}};
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }

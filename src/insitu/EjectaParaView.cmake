@@ -11,6 +11,7 @@ if(NOT DEFINED Python3_EXECUTABLE AND EXISTS /usr/bin/python3)
   set(Python3_EXECUTABLE /usr/bin/python3)
 endif()
 find_package(ParaView 5.11 REQUIRED COMPONENTS Catalyst PythonCatalyst)
+find_package(pybind11 REQUIRED)
 
 # The exported libraries of ParaView name imported targets (X11::X11, GLEW::GLEW, hdf5::hdf5, ...) of development packages
 # that only a build of ParaView itself needs: the shared libraries find theirs at run time. Names that nobody defined
@@ -35,10 +36,12 @@ get_filename_component(ejecta_root ${CMAKE_CURRENT_LIST_DIR}/../.. ABSOLUTE)
 set(insitu ${ejecta_root}/src/insitu)
 add_library(ejecta_insitu STATIC
   ${insitu}/catalyst_bridge.cpp ${insitu}/gl_probe.cpp ${insitu}/image_index.cpp ${insitu}/insitu_log.cpp
-  ${insitu}/pipelines.cpp ${insitu}/vtk_channels.cpp ${insitu}/vtk_files.cpp)
+  ${insitu}/paint_module.cpp ${insitu}/pipelines.cpp ${insitu}/vtk_channels.cpp ${insitu}/vtk_files.cpp)
 target_compile_definitions(ejecta_insitu PRIVATE OMPI_SKIP_MPICXX)
+# pybind11's types are hidden, as they must be; the rest of the layer is not compiled otherwise.
+set_source_files_properties(${insitu}/paint_module.cpp PROPERTIES COMPILE_OPTIONS -fvisibility=hidden)
 target_link_libraries(ejecta_insitu PUBLIC ejecta_render
-  PRIVATE ParaView::Catalyst ParaView::PythonCatalyst ParaView::RemotingServerManager VTK::RenderingOpenGL2 VTK::FiltersSources VTK::IOXML VTK::IOXdmf2 VTK::PythonInterpreter)
+  PRIVATE ParaView::Catalyst ParaView::PythonCatalyst ParaView::RemotingServerManager VTK::RenderingOpenGL2 VTK::FiltersSources VTK::IOXML VTK::IOXdmf2 VTK::PythonInterpreter pybind11::headers VTK::Python)
 
 if(EJECTA_GL STREQUAL "osmesa")
   find_library(OSMESA_LIBRARY OSMesa REQUIRED)

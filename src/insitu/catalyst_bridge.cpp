@@ -31,6 +31,7 @@
 #include "insitu/headless_window.hpp"
 #include "insitu/image_index.hpp"
 #include "insitu/insitu_log.hpp"
+#include "insitu/paint_module.hpp"
 #include "insitu/vtk_channels.hpp"
 
 namespace ejecta {
@@ -189,6 +190,7 @@ CatalystBridge::CatalystBridge(const std::vector<Pipeline>& pipelines, PipelineS
   setenv("VTK_SILENCE_GET_VOID_POINTER_WARNINGS", "1", 1);  // some filters copy our separate x, y, z: that is fine
   state_ = std::make_unique<State>(std::move(settings));
   use_headless_window();
+  offer_paint_module();
   vtkPythonInterpreter::Initialize(0);
   vtkPythonInterpreter::PrependPythonPath((data_folder() / "catalyst_scripts").c_str());
   // Without output to the terminal ParaView's Python logger would write every step it takes.

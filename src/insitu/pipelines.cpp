@@ -11,6 +11,7 @@
 #include "base/json.hpp"
 #include "base/si_prefixes.hpp"
 #include "insitu/insitu_log.hpp"
+#include "insitu/paint_module.hpp"
 
 namespace ejecta {
 namespace {
@@ -23,19 +24,15 @@ std::map<std::string, std::string> units_of(std::span<const Channel> channels) {
 }
 
 std::string field_json(const std::string& unit, const FieldStyle& style) {
-  const ColourRange range = style.range.value_or(ColourRange{0, 1});
-  const ColourScale scale = colour_scale(style.map, range.min, range.max);
-  std::vector<double> points;
-  for (std::size_t k = 0; k < scale.values.size(); ++k)
-    points.insert(points.end(), {scale.values[k], scale.colours[k].red, scale.colours[k].green, scale.colours[k].blue});
   return "{\"unit\":" + to_json(unit) + ",\"label\":" + to_json(style.label) +
-         ",\"range\":" + (style.range ? json_list(std::array{range.min, range.max}) : "null") +
-         ",\"colours\":" + json_list(points) + '}';
+         ",\"range\":" + (style.range ? json_list(std::array{style.range->min, style.range->max}) : "null") +
+         ",\"map\":" + to_json(name_of(style.map)) + ",\"linear_to\":" + to_json(style.linear_to) + '}';
 }
 
 /// The message of the compiler for `path`, as file:line: text; empty if it compiles.
 std::string syntax_problem(const std::string& path) {
   LogRedirection redirection("");
+  offer_paint_module();
   vtkPythonInterpreter::Initialize(0);
   const std::string name = to_json(path);
   const std::string check =
@@ -58,6 +55,7 @@ std::vector<std::string> default_pipelines(const Scene& scene) {
   const std::filesystem::path folder = data_folder() / "catalyst_scripts";
   std::vector<std::string> scripts{folder / "slice.py"};
   if (!scene.numerics.on_grid()) scripts.push_back(folder / "cutaway.py");
+  if (!scene.numerics.on_grid() && scene.dimension == 3) scripts.push_back(folder / "surface.py");
   if (scene.fragments.enabled) scripts.push_back(folder / "fragments.py");
   return scripts;
 }
@@ -102,13 +100,13 @@ std::string frame_json(const PipelineSettings& s, std::span<const Channel> chann
   out << "{\"run_folder\":" << to_json(s.run_folder) << ",\"scene_title\":" << to_json(s.scene_title)
       << ",\"dimension\":" << s.dimension << ",\"image_size\":[" << s.image_width << ',' << s.image_height << ']'
       << ",\"view_center\":[" << to_json(s.view_center[0]) << ',' << to_json(s.view_center[1]) << ','
-      << to_json(s.view_center[2]) << "],\"view_size\":" << to_json(s.view_size)
+      << to_json(s.view_center[2]) << "],\"view_width\":" << to_json(s.view_width) << ",\"view_height\":" << to_json(s.view_height)
       << ",\"time_end\":" << to_json(s.time_end) << ",\"particle_radius\":" << to_json(s.particle_radius)
       << ",\"radius_per_smoothing_length\":" << to_json(s.radius_per_smoothing_length)
       << ",\"nodes_per_h\":" << to_json(s.nodes_per_h) << ",\"kernel_support\":" << to_json(s.kernel_support)
       << ",\"fragment_target\":" << to_json(s.fragment_target) << ",\"prefixes\":" << json_list(si_prefixes)
-      << ",\"channels\":" << json_list(s.channels) << ",\"channels\":" << json_list(s.channels)
-      << ",\"slice_fields\":" << json_list(s.slice_fields) << ",\"fields\":{";
+      << ",\"channels\":" << json_list(s.channels)
+      << ",\"bodies\":" << json_list(s.bodies) << ",\"slice_fields\":" << json_list(s.slice_fields) << ",\"fields\":{";
   const char* separator = "";
   for (const auto& [name, unit] : units_of(channels)) {
     const auto style = s.styles.find(name);

@@ -30,7 +30,7 @@ struct IndexView {
 enum class ChannelKind { points, image };
 
 struct Channel {
-  std::string name;  ///< particles | slice | ellipsoids | fragments
+  std::string name;  ///< particles | slice | ellipsoids | volume | fragments
   ChannelKind kind = ChannelKind::points;
   std::size_t count = 0;                            ///< points, or pixels of the image
   std::array<std::span<const double>, 3> position;  ///< points: x, y, z [m] (z: zeros in 2D)

@@ -124,6 +124,14 @@ Channel FrameChannels<Dim>::ellipsoids(const Particles<Dim>& p, double plane_y, 
   return ellipsoids_.channel("ellipsoids");
 }
 
+template <int Dim>
+Channel FrameChannels<Dim>::volume(const Particles<Dim>& p, Kernel kernel, const View& view, double spacing)
+  requires(Dim == 3)
+{
+  volume_ = make_volume(p, kernel, view, spacing);
+  return volume_.channel("volume");
+}
+
 template class FrameChannels<2>;
 template class FrameChannels<3>;
 

@@ -8,8 +8,10 @@
 
 #include "analysis/fragments.hpp"
 #include "model/channel.hpp"
+#include "observe/view.hpp"
 #include "render/ellipsoids.hpp"
 #include "render/sampling.hpp"
+#include "render/volume.hpp"
 #include "scene/scene.hpp"
 
 namespace ejecta {
@@ -28,6 +30,9 @@ class FrameChannels {
   Channel slice(const Particles<Dim>& p, Kernel kernel, const PixelGrid& grid, double plane_y);
   /// The smoothing ellipsoids of the layer about the plane y = plane_y [m].
   Channel ellipsoids(const Particles<Dim>& p, double plane_y, double nodes_per_h);
+  /// How full space is behind the plane through the middle of the view.
+  Channel volume(const Particles<Dim>& p, Kernel kernel, const View& view, double spacing)
+    requires(Dim == 3);
   /// A point a fragment; `target` is the body that target_mass is of.
   Channel fragments(const FragmentTable& table, std::size_t target);
 
@@ -39,6 +44,7 @@ class FrameChannels {
   std::vector<OwnedField> tensor_fields_;
   SampledImage slice_;
   Ellipsoids ellipsoids_;
+  SampledVolume volume_;
   std::array<std::vector<double>, 11> fragment_columns_;
   std::vector<std::int32_t> fragment_numbers_;
 };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <variant>
 
 namespace ejecta {
 
@@ -14,13 +16,14 @@ struct Row {
   ColourRange (*range)(const Extremes&);  ///< null: what the first frame holds
 };
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
 using enum ColourMap;
 constexpr auto unit_range = [](const Extremes&) -> ColourRange { return {0, 1}; };
 
 const Row table[] = {
     {"pressure", "pressure", cool_warm,
      [](const Extremes& e) -> ColourRange {
-       return {std::min(0.0, -0.05 * e.pressure), e.pressure};
+       return {is_set(e.tension) ? -std::min(e.pressure, 4 * e.tension) : 0, e.pressure};
      }},
     {"pressure_peak", "highest pressure", viridis,
      [](const Extremes& e) -> ColourRange {
@@ -34,7 +37,10 @@ const Row table[] = {
      [](const Extremes& e) -> ColourRange {
        return {0, e.speed};
      }},
-    {"specific_energy", "specific energy", inferno, nullptr},
+    {"specific_energy", "specific energy", inferno,
+     [](const Extremes& e) -> ColourRange {
+       return {0, 0.5 * e.speed * e.speed};
+     }},
     {"distension", "distension", viridis,
      [](const Extremes& e) -> ColourRange {
        return {1, e.distension};
@@ -53,6 +59,34 @@ const Row table[] = {
     {"damage_3", "damage 3", plasma, unit_range},
 };
 
+/// Tension at which the weakest flaw of a particle opens, one flaw per k V eps^m in its volume V [Pa]; infinite without
+/// flaws.
+double flaw_tension(const Material& m, const Scene& scene) {
+  if (!m.damage || !m.elastic || !is_set(m.damage->weibull_m)) return infinity;
+  const double volume = std::pow(scene.spacing, scene.dimension);
+  return m.elastic->young() * std::exp(-std::log(m.damage->weibull_k * volume) / m.damage->weibull_m);
+}
+
+double yield_stress(const Material& m) {
+  return m.strength ? std::visit([](const auto& s) { return s.yield(StrengthState{}); }, *m.strength) : infinity;
+}
+
+/// Adds what solids bear.
+void add_strengths(Extremes& e, const Scene& scene, const std::vector<Material>& materials) {
+  for (const Material& m : materials) {
+    if (!m.solid()) continue;
+    double tension = std::min(flaw_tension(m, scene), yield_stress(m));
+    if (!(tension > 0 && std::isfinite(tension))) tension = 0.01 * m.elastic->bulk_modulus;
+    const double onset = m.porosity ? std::min(tension, m.porosity->curve.elastic_pressure) : tension;
+    e.tension = is_set(e.tension) ? std::max(e.tension, tension) : tension;
+    e.onset = is_set(e.onset) ? std::min(e.onset, onset) : onset;
+  }
+  if (is_set(e.tension)) e.pressure = std::max(is_set(e.pressure) ? e.pressure : 0.0, 3 * e.tension);
+}
+
+/// Where the range of pressure goes far beyond what matter bears colours follow its logarithm, both ways from zero.
+constexpr double far_beyond = 10;
+
 }  // namespace
 
 Extremes extremes(const Scene& scene, const std::vector<Material>& materials, const Outset& outset) {
@@ -60,7 +94,9 @@ Extremes extremes(const Scene& scene, const std::vector<Material>& materials, co
   for (const Material& m : materials)
     if (m.porosity) distension = std::max(distension, m.porosity->initial_distension());
   const double speed = outset.speed > 0 ? outset.speed : std::sqrt(outset.pressure / outset.density);
-  return {outset.pressure, outset.density, speed, distension, std::clamp(scene.numerics.largest_aspect, 1.5, 4.0)};
+  Extremes e{outset.pressure, outset.density, speed, distension, std::clamp(scene.numerics.largest_aspect, 1.5, 4.0)};
+  add_strengths(e, scene, materials);
+  return e;
 }
 
 std::map<std::string, FieldStyle> field_styles(const Scene& scene, const Extremes& expected) {
@@ -75,6 +111,10 @@ std::map<std::string, FieldStyle> field_styles(const Scene& scene, const Extreme
     const auto style = styles.try_emplace(name, plain_style(name)).first;
     style->second.range = range;
   }
+  FieldStyle& pressure = styles.at("pressure");
+  if (pressure.range && is_set(expected.onset) &&
+      std::max(-pressure.range->min, pressure.range->max) > far_beyond * expected.onset)
+    pressure.linear_to = expected.onset;
   return styles;
 }
 

@@ -15,8 +15,12 @@ namespace ejecta {
 /// Largest values to be expected in a run [SI]; `unset` where nothing is known.
 struct Extremes {
   double pressure = unset, density = unset, speed = unset, distension = unset, aspect = unset, mach = unset;
+  double tension = unset;  ///< that the strongest matter bears [Pa]; fluids bear none
+  double onset = unset;    ///< pressure or tension at which the weakest matter yields, cracks or begins to be crushed [Pa]
 };
-/// What particles lead one to expect that set out like this.
+/// What particles lead one to expect that set out like this, of these materials. What solids bear follows from their
+/// moduli and strengths: the tension that opens the weakest flaw of a particle, else the yield stress, else a hundredth
+/// of the bulk modulus. At least three times that is expected of the pressure.
 Extremes extremes(const Scene& scene, const std::vector<Material>& materials, const Outset& outset);
 
 /// Of all fields that have a style of their own or a range given by the scene. Ranges are the scene's, and where it

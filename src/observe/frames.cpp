@@ -29,7 +29,8 @@ PipelineSettings settings_of(const Simulation& sim, const std::filesystem::path&
   settings.image_width = scene.insitu.image_width;
   settings.image_height = scene.insitu.image_height;
   settings.view_center = plan.view.center;
-  settings.view_size = plan.view.size;
+  settings.view_width = plan.view.width;
+  settings.view_height = plan.view.height;
   settings.time_end = scene.time_end;
   settings.styles = plan.styles;
   settings.slice_fields = plan.slice_fields;
@@ -45,6 +46,8 @@ constexpr int looks_per_frame = 10;
 /// Frames after an event come so much denser than the others.
 constexpr int burst_density = 10;
 const std::string note = "insitu event: ";
+/// A slice is sampled no more finely than this: there is nothing to see between.
+constexpr double samples_per_spacing = 6;
 /// Renderers say little, and in words of their own, where an image cannot be written. So it is tried before. Throws
 /// OutputError.
 void check_room(const std::filesystem::path& images) {
@@ -81,8 +84,11 @@ Frames::Frames(const Simulation& sim, std::filesystem::path folder, Outputs& out
     : folder_(std::move(folder)),
       outputs_(outputs),
       view_(plan.view),
-      slice_grid_(panel_grid(view_, sim.scene, static_cast<int>(plan.slice_fields.size()))),
-      painter_(sim.scene, plan.styles, folder_ / "images"),
+      limits_(plan.limits),
+      slice_layout_(sim.scene.insitu.image_width, sim.scene.insitu.image_height,
+                    static_cast<int>(plan.slice_fields.size()), view_.window(sim.scene.dimension), limits_),
+      slice_grid_(slice_layout_.grid(sim.scene.spacing / samples_per_spacing)),
+      painter_(sim.scene, plan.styles, slice_layout_, folder_ / "images"),
       schedule_(sim.scene),
       governor_(sim.scene.insitu.max_share),
       events_(sim.scene.insitu.events),

@@ -23,6 +23,7 @@ namespace ejecta {
 /// What the pictures of a run are told of it.
 struct PicturePlan {
   View view;
+  Window limits = Layout::everywhere();      ///< beyond them there will never be anything
   std::vector<std::string> slice_fields;     ///< panels of a slice
   std::map<std::string, FieldStyle> styles;  ///< field -> how it is shown
 };
@@ -80,6 +81,8 @@ class Frames : public Observer {
   std::filesystem::path folder_;
   Outputs& outputs_;
   View view_;
+  Window limits_;
+  Layout slice_layout_;
   PixelGrid slice_grid_;
   Painter painter_;
   std::optional<FragmentTable> fragments_;

@@ -18,9 +18,9 @@ namespace {
 /// The box, or where it grows with a blast, what that will have swept.
 template <int Dim>
 View view_of(const Scene& scene, const Grid<Dim>& grid) {
-  View view{scene.insitu.view_center, scene.insitu.view_size};
+  View view{scene.insitu.view_center, scene.insitu.view_size, scene.insitu.view_height};
   const Box<Dim>& box = grid.box();
-  double largest = 0;
+  Vec<Dim> extent;
   for (int a = 0; a < Dim; ++a) {
     const auto i = static_cast<std::size_t>(a);
     double low = box.corner[a], high = low + box.cells[i] * box.spacing;
@@ -30,11 +30,13 @@ View view_of(const Scene& scene, const Grid<Dim>& grid) {
       if (box.grows_upper[i]) high = std::max(high, scene.charge->center[i] + reach);
     }
     if (!is_set(view.center[i])) view.center[i] = 0.5 * (low + high);
-    largest = std::max(largest, high - low);
+    extent[a] = high - low;
   }
   for (double& c : view.center)
     if (!is_set(c)) c = 0;
-  if (!is_set(view.size)) view.size = 1.04 * largest;
+  const bool given = is_set(view.width);
+  if (!given) view.width = extent[0];
+  if (!is_set(view.height)) view.height = given ? view.width : extent[Dim - 1];
   return view;
 }
 
@@ -75,12 +77,25 @@ Extremes pushed(Extremes e, const CellState<Dim>& gas, double speed) {
   return e;
 }
 
+/// Faces that stay where they are: nothing will ever be beyond.
+template <int Dim>
+Window limits_of(const Box<Dim>& box) {
+  Window limits = Layout::everywhere();
+  for (std::size_t side = 0; side < 2; ++side) {
+    const std::size_t axis = side == 0 ? 0 : Dim - 1;
+    const double low = box.corner[static_cast<int>(axis)];
+    if (!box.grows_lower[axis]) limits.low[side] = low;
+    if (!box.grows_upper[axis]) limits.high[side] = low + box.cells[axis] * box.spacing;
+  }
+  return limits;
+}
+
 template <int Dim>
 PicturePlan plan_of(const Simulation& sim, const Grid<Dim>& grid) {
   const Sph<Dim>* solids = solids_of(find_package<Hybrid<Dim>>(sim));
   Extremes extremes = expected(sim.scene, grid);
   if (solids) extremes = pushed(extremes, grid.ambient(), solids->outset.speed);
-  PicturePlan plan{view_of(sim.scene, grid), {"density", "pressure"}, field_styles(sim.scene, extremes)};
+  PicturePlan plan{view_of(sim.scene, grid), limits_of(grid.box()), {"density", "pressure"}, field_styles(sim.scene, extremes)};
   plan.slice_fields.emplace_back(shows_damage(solids) ? "damage" : "mach");
   return plan;
 }
@@ -95,20 +110,6 @@ PipelineSettings told_of(const Simulation& sim) {
   return told;
 }
 
-/// The pixels without those beyond faces that stay where they are: nothing will ever be there.
-template <int Dim>
-PixelGrid within(PixelGrid pixels, const Box<Dim>& box) {
-  const auto trim = [&](std::size_t axis, std::size_t side, int& count) {
-    const double low = box.corner[static_cast<int>(axis)], high = low + box.cells[axis] * box.spacing;
-    double& first = pixels.first[side];
-    while (!box.grows_lower[axis] && count > 1 && first < low) first += pixels.pixel, --count;
-    while (!box.grows_upper[axis] && count > 1 && first + (count - 1) * pixels.pixel > high) --count;
-  };
-  trim(0, 0, pixels.width);
-  trim(Dim - 1, 1, pixels.height);
-  return pixels;
-}
-
 }  // namespace
 
 template <int Dim>
@@ -117,9 +118,7 @@ GridFrames<Dim>::GridFrames(const Simulation& sim, const Grid<Dim>& grid, const 
     : Frames(sim, folder, outputs, catalyst, plan_of(sim, grid), told_of<Dim>(sim)),
       grid_(grid),
       hybrid_(find_package<Hybrid<Dim>>(sim)),
-      solids_(solids_of(hybrid_)) {
-  slice_grid_ = within(slice_grid_, grid.box());
-}
+      solids_(solids_of(hybrid_)) {}
 
 template <int Dim>
 SampledImage GridFrames<Dim>::make_slice() {

@@ -12,7 +12,8 @@ namespace {
 
 template <int Dim>
 PicturePlan plan_of(const Sph<Dim>& sph) {
-  PicturePlan plan{choose_view(sph.scene), {}, field_styles(sph.scene, extremes(sph.scene, sph.materials, sph.outset))};
+  PicturePlan plan{choose_view(sph.scene), Layout::everywhere(), {},
+                   field_styles(sph.scene, extremes(sph.scene, sph.materials, sph.outset))};
   for (const Field f : slice_fields(sph.particles)) plan.slice_fields.emplace_back(info(f).name);
   return plan;
 }
@@ -24,12 +25,14 @@ PipelineSettings pipeline_settings(const Sph<Dim>& sph) {
   const Scene& scene = sph.scene;
   PipelineSettings settings;
   settings.channels = {"particles", "slice", "ellipsoids"};
+  if (Dim == 3) settings.channels.push_back("volume");
   if (scene.fragments.enabled) settings.channels.push_back("fragments");
   settings.particle_radius = 0.6 * scene.spacing;
   settings.nodes_per_h = scene.numerics.nodes_per_h;
   settings.radius_per_smoothing_length = 0.6 / settings.nodes_per_h;
   settings.fragment_target = scene.bodies[target_body(scene, sph.outset.bodies)].name;
   settings.kernel_support = kernel_support(scene.numerics.kernel);
+  for (const Body& body : scene.bodies) settings.bodies.push_back(body.name);
   return settings;
 }
 
@@ -85,8 +88,10 @@ template <int Dim>
 void ParticleFrames<Dim>::draw_more(Simulation& sim) {
   if (!sim.scene.insitu.column_density) return;
   sim.timers.time("in situ: column density", [&] {
-    const PixelGrid grid = panel_grid(view_, sph_.scene, 1);
-    painter_.paint_column_density(make_column_density(sph_.particles, sph_.scene.numerics.kernel, grid), sph_.clock);
+    const InSitu& insitu = sph_.scene.insitu;
+    const Layout layout(insitu.image_width, insitu.image_height, 1, view_.window(Dim), limits_);
+    painter_.paint_column_density(make_column_density(sph_.particles, sph_.scene.numerics.kernel, layout.grid()), layout,
+                                  sph_.clock);
   });
 }
 
@@ -102,6 +107,8 @@ std::vector<Channel> ParticleFrames<Dim>::make_channels(Simulation& sim) {
   make("particles", [&] { return channels_.particles(p, fragments_); });
   make("slice", [&] { return channels_.slice(p, numerics.kernel, slice_grid_, plane_y); });
   make("ellipsoids", [&] { return channels_.ellipsoids(p, plane_y, numerics.nodes_per_h); });
+  if constexpr (Dim == 3)
+    make("volume", [&] { return channels_.volume(p, numerics.kernel, view_, sph_.scene.spacing); });
   if (fragments_)
     make("fragments", [&] { return channels_.fragments(*fragments_, target_body(sph_.scene, sph_.outset.bodies)); });
   return made;

@@ -99,8 +99,8 @@ FrameSchedule::Due FrameSchedule::take(const Moment& now, bool last) {
   };
   look(always_, true);
   look(loose_, true);
+  look(others_, false);  // a movie of these must have no gap where a frame of the first kind falls on one
   look(frames_, listed_);
-  look(others_, false);
   due.always |= last || asked_;
   if (due.reason.empty() && asked_) due.reason = "asked for";
   if (due.reason.empty() && last) due.reason = end_of_run;

@@ -32,6 +32,15 @@ SampledImage make_slice(const Particles<Dim>& p, std::span<const Field> fields, 
   return sample_slice(particle_view(p), views, kernel_shape<Dim>(kernel), grid, plane_y);
 }
 
+SampledVolume make_volume(const Particles<3>& p, Kernel kernel, const View& view, double spacing) {
+  constexpr double steps_per_spacing = 1.5, most_points = 4e6;
+  const Window window = view.window(3);
+  const std::array low{window.low[0], view.center[1], window.low[1]};
+  const std::array high{window.high[0], view.center[1] + 0.5 * view.width, window.high[1]};
+  const Lattice3 lattice = lattice_within(low, high, spacing / steps_per_spacing, most_points);
+  return sample_volume(particle_view(p), p.label(Label::body), kernel_shape<3>(kernel), lattice);
+}
+
 template <int Dim>
 SampledImage make_column_density(const Particles<Dim>& p, Kernel kernel, const PixelGrid& grid) {
   return sample_column_density(particle_view(p), kernel_shape<Dim>(kernel), grid);

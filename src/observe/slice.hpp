@@ -3,8 +3,10 @@
 #include <span>
 #include <vector>
 
+#include "observe/view.hpp"
 #include "particles/particles.hpp"
 #include "render/sampling.hpp"
+#include "render/volume.hpp"
 #include "scene/scene.hpp"
 
 namespace ejecta {
@@ -17,6 +19,9 @@ std::vector<Field> slice_fields(const Particles<Dim>& particles);
 template <int Dim>
 SampledImage make_slice(const Particles<Dim>& particles, std::span<const Field> fields, Kernel kernel,
                         const PixelGrid& grid, double plane_y);
+
+/// How full space is behind the plane y = plane_y [m], as far as the view of a scene goes.
+SampledVolume make_volume(const Particles<3>& particles, Kernel kernel, const View& view, double spacing);
 
 /// Mass per area seen along y.
 template <int Dim>

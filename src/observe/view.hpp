@@ -2,21 +2,21 @@
 /// What the images of a run show.
 #include <string>
 
-#include "render/sampling.hpp"
+#include "render/sheet.hpp"
 #include "scene/scene.hpp"
 
 namespace ejecta {
 
-/// Centre and width [m] of what the images show.
+/// Centre, width and height [m] of what the images show at least.
 struct View {
   Triple center;
-  double size;
+  double width, height;
+
+  /// In the picture plane, which is x-z in space.
+  Window window(int dimension) const;
 };
 /// What the scene says, or a frame about the body that moves least.
 View choose_view(const Scene& scene);
-
-/// Pixels of one panel out of `panels` in a picture of the scene's size.
-PixelGrid panel_grid(const View& view, const Scene& scene, int panels);
 
 /// Stands over every image.
 std::string heading(const Scene& scene);

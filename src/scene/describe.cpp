@@ -173,7 +173,8 @@ void describe(Describer& d, InSitu& i) {
   d.integer("image_width", i.image_width, between(64, 8192), "pixels");
   d.integer("image_height", i.image_height, between(64, 8192), "pixels");
   d.triple("view_center", i.view_center, "m", "middle of the images; else the centre of the bodies at rest");
-  d.number("view_size", i.view_size, "m", positive, "visible width; else 1.6 times the extent of the slowest body");
+  d.number("view_size", i.view_size, "m", positive, "visible width at least; else 1.6 times the extent of the slowest body");
+  d.number("view_height", i.view_height, "m", positive, "visible height at least; else view_size");
   d.map("ranges", i.ranges, "<field>", "field name = fixed colour range",
         [&](const std::string& field, ColourRange& r) {
           d.range(field, r, "same from the first frame to the last").required = true;

@@ -59,10 +59,10 @@ class Ball : public testing::Test {
     CatalystBridge bridge(plain_pipelines(scripts), young.settings(folder));
     for (const std::string& channel : young.settings(folder).channels)
       if (bridge.reads(channel.c_str())) read.insert(channel);
-    first = bridge.execute(0, 0, std::vector{young.particles(), young.slice(), young.fragments()}, every_frame(bridge));
-    second = bridge.execute(25, 30e-6, std::vector{old.particles(), old.slice(), old.fragments()}, every_frame(bridge));
+    first = bridge.execute(0, 0, young.channels(), every_frame(bridge));
+    second = bridge.execute(25, 30e-6, old.channels(), every_frame(bridge));
     repeated =
-        bridge.execute(25, 30e-6, std::vector{old.particles(), old.slice(), old.fragments()}, every_frame(bridge));
+        bridge.execute(25, 30e-6, old.channels(), every_frame(bridge));
     counts = bridge.counts();
   }
 
@@ -76,15 +76,16 @@ class Ball : public testing::Test {
 
 TEST_F(Ball, EveryViewHasAnImageEachFrame) {
   const std::vector<std::string> expected{image("cutaway_000025.png"), image("fragments_000025.png"),
-                                          image("mine_000025.png"), image("slice_000025.png")};
+                                          image("mine_000025.png"), image("slice_000025.png"),
+                                          image("surface_000025.png")};
   std::vector<std::string> files = second.files;  // in the order of the pipelines
   std::ranges::sort(files);
   EXPECT_EQ(files, expected);
-  EXPECT_EQ(first.files.size(), 4u);
+  EXPECT_EQ(first.files.size(), 5u);
 }
 
 TEST_F(Ball, ImagesHaveTheSceneSizeAndShowTheObjectWithinTheFrame) {
-  for (const char* view : {"cutaway", "fragments", "slice"})
+  for (const char* view : {"cutaway", "fragments", "slice", "surface"})
     for (const char* step : {"_000000.png", "_000025.png"}) {
       SCOPED_TRACE(std::string(view) + step);
       const Picture picture(image(view + std::string(step)));
@@ -92,7 +93,7 @@ TEST_F(Ball, ImagesHaveTheSceneSizeAndShowTheObjectWithinTheFrame) {
       EXPECT_EQ(picture.height, 720);
       EXPECT_GT(picture.colours(), 60u);
       EXPECT_GT(picture.coloured_share(), 0.06);
-      EXPECT_TRUE(picture.corners_are_white());
+      EXPECT_TRUE(picture.band_and_margins_are_clean());
     }
 }
 
@@ -114,7 +115,7 @@ TEST_F(Ball, TheTableOfImagesAgreesWithTheFolder) {
     EXPECT_TRUE(std::filesystem::exists(image(line.substr(line.rfind(',') + 1)))) << line;
     EXPECT_TRUE(line.rfind("0,0,", 0) == 0 || line.rfind("3e-05,25,", 0) == 0) << line;
   }
-  EXPECT_EQ(rows, 8);
+  EXPECT_EQ(rows, 10);
 }
 
 TEST_F(Ball, AUsersExtractorWritesIntoTheRunFolder) {
@@ -133,7 +134,7 @@ TEST_F(Ball, FailuresAreReportedAndCountedAndTheOthersGoOn) {
     EXPECT_NE(report.failures[2].text.find("a vtkPartitionedDataSet is required"), std::string::npos)
         << report.failures[2].text;
   }
-  ASSERT_EQ(counts.size(), 7u);
+  ASSERT_EQ(counts.size(), 8u);
   for (std::size_t k = 0; k < counts.size(); ++k) {
     EXPECT_EQ(counts[k].frames, 2) << counts[k].name;
     EXPECT_EQ(counts[k].failures, k == 1 || k > 3 ? 0 : 2) << counts[k].name;
@@ -144,7 +145,7 @@ TEST_F(Ball, FailuresAreReportedAndCountedAndTheOthersGoOn) {
 }
 
 TEST_F(Ball, TheChannelsThatScriptsReadAreKnownBeforeTheFirstFrame) {
-  EXPECT_EQ(read, (std::set<std::string>{"particles", "slice", "fragments"}));
+  EXPECT_EQ(read, (std::set<std::string>{"particles", "slice", "volume", "fragments"}));
 }
 
 TEST_F(Ball, AStepIsShownOnce) { EXPECT_TRUE(repeated.files.empty()); }

@@ -66,10 +66,12 @@ struct Picture {
       return true;
     });
   }
-  bool corners_are_white() const {
-    const std::array<unsigned char, 3> white{255, 255, 255};
-    return at(0, 0) == white && at(width - 1, 0) == white && at(0, height - 1) == white &&
-           at(width - 1, height - 1) == white;
+  /// The lower corners are paper, and the edges of the band above have its colour: no matter gets there.
+  bool band_and_margins_are_clean() const {
+    const std::array<unsigned char, 3> white{255, 255, 255}, band = at(0, height - 1);
+    bool clean = at(0, 0) == white && at(width - 1, 0) == white && band != white;
+    for (int x = 0; x < width; ++x) clean = clean && at(x, height - 1) == band;
+    return clean;
   }
 };
 

@@ -20,8 +20,11 @@ std::vector<std::string> problems_of(const std::vector<std::string>& paths) {
 }
 
 TEST(Pipelines, TheDefaultOnesPassTheCheck) {
-  EXPECT_EQ(default_pipelines(scene_with(false)).size(), 2u);
-  EXPECT_EQ(default_pipelines(scene_with(true)).size(), 3u);
+  EXPECT_EQ(default_pipelines(scene_with(false)).size(), 3u);
+  EXPECT_EQ(default_pipelines(scene_with(true)).size(), 4u);
+  Scene plane;
+  plane.dimension = 2;
+  EXPECT_EQ(default_pipelines(plane).size(), 2u);
   EXPECT_TRUE(problems_of(default_pipelines(scene_with(true))).empty());
   Scene grid;
   grid.numerics.scheme = SchemeKind::fvm;
@@ -67,17 +70,17 @@ TEST(Pipelines, SettingsAreWrittenAsJson) {
   PipelineSettings s;
   s.run_folder = "/a \"b\"\n";
   s.slice_fields = {"pressure", "sound_speed"};
-  s.styles = {{"pressure", {"bulk pressure", ColourMap::cool_warm, ColourRange{-1e6, 2.5e8}}}};
+  s.styles = {{"pressure", {"bulk pressure", ColourMap::cool_warm, ColourRange{-1e6, 2.5e8}, 1e6}}};
   Channel channel;
   channel.fields = {{"pressure", "Pa", {}}, {"sound_speed", "m/s", {}}};
   const std::string json = frame_json(s, std::span(&channel, 1));
   EXPECT_NE(json.find(R"("run_folder":"/a \"b\"\u000a")"), std::string::npos) << json;
   EXPECT_NE(json.find(R"("slice_fields":["pressure","sound_speed"])"), std::string::npos) << json;
-  EXPECT_NE(
-      json.find(R"("pressure":{"unit":"Pa","label":"bulk pressure","range":[-1000000,250000000],"colours":[-1000000,)"),
-      std::string::npos)
+  EXPECT_NE(json.find(R"("pressure":{"unit":"Pa","label":"bulk pressure","range":[-1000000,250000000],"map":"cool_warm",)"
+                      R"("linear_to":1000000})"),
+            std::string::npos)
       << json;
-  EXPECT_NE(json.find(R"("sound_speed":{"unit":"m/s","label":"sound speed","range":null,"colours":[0,)"),
+  EXPECT_NE(json.find(R"("sound_speed":{"unit":"m/s","label":"sound speed","range":null,"map":"viridis","linear_to":0})"),
             std::string::npos)
       << json;
 }

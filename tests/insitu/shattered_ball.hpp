@@ -17,8 +17,9 @@ namespace ejecta {
 struct ShatteredBall {
   static constexpr double radius = 0.035;  // m
   double spacing;                          // m
-  std::vector<double> x, y, z, zero, vx, vy, vz, pressure, distension, damage, smoothing_length;
-  std::vector<std::int32_t> fragment;
+  std::vector<double> x, y, z, zero, vx, vy, vz, pressure, distension, damage, smoothing_length, mass;
+  std::vector<std::int32_t> fragment, body;
+  std::vector<double> filling, bodies_of_volume;
   std::vector<double> slice_pressure, slice_distension, slice_damage;
   std::vector<double> fx, fy, fz, fragment_mass;
   std::vector<std::int32_t> fragment_ids;
@@ -41,6 +42,9 @@ struct ShatteredBall {
       for (int j = -cells; j <= cells; ++j)
         for (int i = -cells; i <= cells; ++i) add_particle(i * spacing, j * spacing, k * spacing, age);
     zero.assign(x.size(), 0.0);
+    mass.assign(x.size(), 700 * spacing * spacing * spacing);
+    body.assign(x.size(), 0);
+    fill_volume();
     fill_slice(age);
   }
 
@@ -55,8 +59,9 @@ struct ShatteredBall {
                 {"pressure", "Pa", {pressure}},
                 {"distension", "1", {distension}},
                 {"damage", "1", {damage}},
+                {"mass", "kg", {mass}},
                 {"smoothing_length", "m", {smoothing_length}}};
-    c.indices = {{"fragment_number", fragment}};
+    c.indices = {{"body", body}, {"fragment_number", fragment}};
     return c;
   }
   Channel slice() const {
@@ -71,6 +76,19 @@ struct ShatteredBall {
         {"pressure", "Pa", {slice_pressure}}, {"distension", "1", {slice_distension}}, {"damage", "1", {slice_damage}}};
     return c;
   }
+  Channel volume() const {
+    Channel c;
+    c.name = "volume";
+    c.kind = ChannelKind::image;
+    c.count = filling.size();
+    c.extent = {volume_points, volume_points, volume_points};
+    c.origin = {-slice_half(), 0, -slice_half()};
+    const double step = 2 * slice_half() / (volume_points - 1);
+    c.spacing = {step, step, step};
+    c.fields = {{"filling", "1", {filling}}, {"body", "1", {bodies_of_volume}}};
+    return c;
+  }
+  std::vector<Channel> channels() const { return {particles(), slice(), volume(), fragments()}; }
   Channel fragments() const {
     Channel c;
     c.name = "fragments";
@@ -83,9 +101,12 @@ struct ShatteredBall {
   PipelineSettings settings(const std::string& run_folder) const {
     PipelineSettings s;
     s.run_folder = run_folder;
-    s.channels = {"particles", "slice", "ellipsoids", "fragments"};
+    s.channels = {"particles", "slice", "ellipsoids", "volume", "fragments"};
+    s.bodies = {"ball"};
+    s.image_width = 960;
+    s.image_height = 720;
     s.scene_title = "Shattered ball";
-    s.view_size = 3.2 * radius;
+    s.view_width = s.view_height = 3.2 * radius;
     s.time_end = 100e-6;
     s.particle_radius = 0.6 * spacing;
     s.slice_fields = {"pressure", "distension", "damage"};
@@ -131,6 +152,17 @@ struct ShatteredBall {
     smoothing_length.push_back(1.3 * spacing);
     fragment.push_back(dust ? 0 : static_cast<std::int32_t>(nearest) + 1);
     if (!dust) fragment_mass[nearest] += 700 * spacing * spacing * spacing;
+  }
+  static constexpr int volume_points = 40;
+  void fill_volume() {
+    const double step = 2 * slice_half() / (volume_points - 1);
+    for (int k = 0; k < volume_points; ++k)
+      for (int j = 0; j < volume_points; ++j)
+        for (int i = 0; i < volume_points; ++i) {
+          const double r = std::hypot(i * step - slice_half(), j * step, k * step - slice_half());
+          filling.push_back(std::clamp(0.5 + (radius - r) / (2 * step), 0.0, 1.0));
+          bodies_of_volume.push_back(r < radius + step ? 0 : -1);
+        }
   }
   void fill_slice(double age) {
     const double nothing = std::numeric_limits<double>::quiet_NaN();

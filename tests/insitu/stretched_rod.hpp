@@ -62,7 +62,10 @@ inline PipelineSettings rod_settings(const std::string& run_folder, int dimensio
   s.channels = {"particles", "slice", "ellipsoids"};
   s.scene_title = "Stretched rod";
   s.dimension = dimension;
-  s.view_size = 1.6 * rod_length;
+  s.view_width = 1.6 * rod_length;
+  s.view_height = rod_length;
+  s.image_width = 800;
+  s.image_height = 600;
   s.time_end = 50e-6;
   s.nodes_per_h = rod_nodes_per_h;
   s.styles = {{"aspect", {"aspect", ColourMap::viridis, ColourRange{1, 4}}},

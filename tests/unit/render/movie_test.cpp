@@ -35,7 +35,7 @@ TEST(Movie, HasAFrameForEveryImageOfAView) {
     Canvas canvas(101, 75, {0.9, 0.9, 0.95});  // odd sizes
     canvas.fill({5.0 + 6 * k, 20, 20, 30}, {0.8, 0.2, 0.1});
     const std::string name = "slice_" + std::to_string(k) + ".png";
-    canvas.save_png(run / "images" / name);
+    write_png(run / "images" / name, canvas.raster());
     data << k << ",slice," << name << '\n';
     if (k < 1) data << k << ",single," << name << '\n';
   }
