@@ -59,9 +59,14 @@ def fields(source):
     return [arrays.GetArrayName(i) for i in range(arrays.GetNumberOfArrays())]
 
 
+def array(source, name):
+    """An array of a channel as numpy's, without a copy."""
+    return vtk_to_numpy(data_of(source).GetPointData().GetArray(name))
+
+
 def column(source, name):
-    """An array of a channel as numpy's, without a copy; of vectors their magnitude."""
-    values = vtk_to_numpy(data_of(source).GetPointData().GetArray(name))
+    """The same, but of vectors their magnitude."""
+    values = array(source, name)
     return values if values.ndim == 1 else numpy.sqrt((values.astype(float) ** 2).sum(axis=1))
 
 
@@ -204,6 +209,11 @@ class View:
         """Particles as spheres of their own size coloured by a field; `behind`: only those with y above it."""
         keep = slice(None) if behind is None else column(source, "position_y") >= behind
         rgb = colour_scale(field, source).colours(column(source, field)[keep])
+        if field.startswith("damage") and "body" in fields(source):  # what cannot break has the colour of its body
+            colours = numpy.array([0 if b["breaks"] else ejecta_paint.body_colour(i)
+                                   for i, b in enumerate(settings()["bodies"])], numpy.uint32)
+            own = colours[column(source, "body")[keep]]
+            rgb = numpy.where(own != 0, own, rgb)
         self.spheres(places_of(source)[keep], radii_of(source)[keep], rgb)
         self.colour_bar(field, source)
 
@@ -212,6 +222,35 @@ class View:
         self.solids.update(points=points, normals=normals, point_rgb=rgb, triangles=triangles)
         if plate is not None:
             self.solids.update(plate=plate, corner=corner, across=across, upwards=upwards)
+
+    def polygons(self, points, field, source):
+        """Flat polygons of equally many corners, (n, corners, 3), coloured by a field of as many values."""
+        n, corners, _ = points.shape
+        fan = numpy.array([(0, k, k + 1) for k in range(1, corners - 1)])
+        triangles = (corners * numpy.arange(n)[:, None, None] + fan).reshape(-1, 3)
+        rgb = colour_scale(field, source).colours(column(source, field))
+        self.surface(points.reshape(-1, 3), numpy.zeros((n * corners, 3)), numpy.repeat(rgb, corners), triangles)
+        self.solids["flat"] = True
+        self.colour_bar(field, source)
+
+    def lines(self, points, width=1.5):
+        """Dark lines of equally many points, (n, points, 3), with a light rim, `width` in thousandths of the picture's
+        height, added to the polygons."""
+        starts, ends = points[:, :-1].reshape(-1, 3), points[:, 1:].reshape(-1, 3)
+        eye = -numpy.array(self.direction)
+        across = numpy.cross(ends - starts, eye)
+        length = numpy.linalg.norm(across, axis=1, keepdims=True)
+        across = numpy.where(length > 0, across / numpy.where(length > 0, length, 1), 0)
+        half = 0.5e-3 * width * self.layout.pixel * self.size[1]
+        for rim, colour, lift in ((2.2, 0xFFFFFF, 0.0), (1.0, 0x212126, half)):
+            along = numpy.cross(eye, across) * half * rim  # ends overlap: corners have no gaps
+            a, b, side = starts - along + lift * eye, ends + along + lift * eye, across * half * rim
+            corners = numpy.stack([a - side, b - side, b + side, a + side], axis=1).reshape(-1, 3)
+            first = len(self.solids["point_rgb"]) + 4 * numpy.arange(len(starts))[:, None, None]
+            triangles = (first + numpy.array([(0, 1, 2), (0, 2, 3)])).reshape(-1, 3)
+            more = dict(points=corners, normals=numpy.zeros_like(corners), triangles=triangles,
+                        point_rgb=numpy.full(len(corners), colour, numpy.uint32))
+            self.solids.update({name: numpy.concatenate([self.solids[name], values]) for name, values in more.items()})
 
     def show(self, source, representation, **properties):
         """Anything else, drawn by ParaView."""

@@ -10,23 +10,16 @@ source = ejecta.channel("ellipsoids")
 view = None
 
 
-def make_view():
-    s = ejecta.settings()
-    field = "damage" if "damage" in ejecta.fields(source) else "aspect"
-    spacing, support = 0.5 / s["nodes_per_h"], s["kernel_support"]
-    view = ejecta.View("ellipses", f"smoothing ellipses, one node spacing wide, by {ejecta.label(field)}; "
-                                   f"lines: full support ({support:g} h)")
-    tensor_shapes.look_at_layer(view)
-    shapes = tensor_shapes.draw(source, tensor_shapes.ellipses, field, 0.95 * spacing, True, False)
-    tensor_shapes.show_polygons(view, shapes, field, source)
-    tensor_shapes.show_lines(view, tensor_shapes.draw(source, tensor_shapes.ellipses, field, support, False, True))
-    return view
-
-
 def catalyst_execute(info):
     global view
     if not ejecta.has_data(source):
         return
+    s = ejecta.settings()
+    field = "damage" if "damage" in ejecta.fields(source) else "aspect"
     if view is None:
-        view = make_view()
+        view = ejecta.View("ellipses", f"smoothing ellipses, one node spacing wide, by {ejecta.label(field)}; "
+                                       f"lines: full support ({s['kernel_support']:g} h)")
+        tensor_shapes.look_at_layer(view)
+    view.polygons(tensor_shapes.ellipses(source, 0.95 * 0.5 / s["nodes_per_h"]), field, source)
+    view.lines(tensor_shapes.outlines(source, s["kernel_support"]))
     view.save(info)

@@ -16,7 +16,8 @@ source = ejecta.channel("particles")
 view = None
 
 LEVEL = 0.5  # of the filling: half of what a kernel sees is matter where a body ends
-SPRAY = 0.6  # size of a lone particle, of one within matter
+LONE = 0.3   # filling at a particle that no surface surrounds
+SPRAY = 0.6  # its size, of one within matter
 
 
 def nearest_points(places):
@@ -71,7 +72,7 @@ def catalyst_execute(info):
     palette = numpy.array([ejecta_paint.body_colour(b) for b in range(len(s["bodies"]))], numpy.uint32)
     places = ejecta.places_of(source)
     at, within = nearest_points(places)
-    lone = within & (ejecta.column(volume, "filling")[at] < LEVEL) & (places[:, 1] >= s["view_center"][1])
+    lone = within & (ejecta.column(volume, "filling")[at] < LONE) & (places[:, 1] >= s["view_center"][1])
     view.spheres(places[lone], SPRAY * ejecta.radii_of(source)[lone], palette[ejecta.column(source, "body")[lone]])
     mesh = outside(palette)
     if mesh is not None:

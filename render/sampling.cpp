@@ -138,39 +138,41 @@ SampledImage sample_slice(const ParticleView& particles, std::span<const FieldVi
     }
   }
 
-  SampledImage image{grid, {}};
-  std::vector<std::span<const double>> sources;
-  for (const FieldView& f : fields) {
-    image.fields.push_back({f.name, f.unit, {}});
-    for (const std::span<const double> component : f.components) {
-      sources.push_back(component);
-      image.fields.back().components.emplace_back(pixels(grid), 0.0);
-    }
-  }
-  image.fields.push_back({"filling", "1", {std::vector<double>(pixels(grid), 0.0)}});
-  std::vector<std::size_t> nearest(pixels(grid), particles.size());
-  std::vector<float> most(pixels(grid), 0.0f);
+  std::vector<std::span<const double>> sources;  // of components, one field after the other
   std::vector<bool> states;
-  for (const FieldView& f : fields) states.insert(states.end(), f.components.size(), is_state_of_matter(f.name));
-  const auto is_state = [&](std::size_t k) { return bool(states[k]); };
-  std::vector<double*> targets;
-  for (SampledImage::Field& f : image.fields)
-    for (std::vector<double>& component : f.components) targets.push_back(component.data());
-
+  for (const FieldView& f : fields) {
+    sources.insert(sources.end(), f.components.begin(), f.components.end());
+    states.insert(states.end(), f.components.size(), is_state_of_matter(f.name));
+  }
+  // The sums of a pixel lie together, that of the weights last.
+  const std::size_t n = sources.size(), count = pixels(grid);
+  std::vector<double> sums(count * (n + 1), 0.0);
+  std::vector<std::size_t> nearest(count, particles.size());
+  std::vector<float> most(count, 0.0f);
   for_each_pixel(splats, grid, slice_table(kernel), kernel.support, [&](const Splat& s, std::size_t p, double weight) {
-    for (std::size_t k = 0; k < sources.size(); ++k) targets[k][p] += weight * sources[k][s.particle];
-    targets[sources.size()][p] += weight;
+    double* sum = sums.data() + p * (n + 1);
+    for (std::size_t k = 0; k < n; ++k) sum[k] += weight * sources[k][s.particle];
+    sum[n] += weight;
     if (static_cast<float>(weight) > most[p]) {
       most[p] = static_cast<float>(weight);
       nearest[p] = s.particle;
     }
   });
-  parallel_for(0, pixels(grid), [&](std::size_t p) {
-    const double filling = targets[sources.size()][p];
-    for (std::size_t k = 0; k < sources.size(); ++k)
+
+  SampledImage image{grid, {}};
+  std::vector<double*> targets;
+  for (const FieldView& f : fields)
+    image.fields.push_back({f.name, f.unit, std::vector<std::vector<double>>(f.components.size(), std::vector<double>(count))});
+  image.fields.push_back({"filling", "1", {std::vector<double>(count)}});
+  for (SampledImage::Field& f : image.fields)
+    for (std::vector<double>& component : f.components) targets.push_back(component.data());
+  parallel_for(0, count, [&](std::size_t p) {
+    const double* sum = sums.data() + p * (n + 1);
+    const double filling = targets[n][p] = sum[n];
+    for (std::size_t k = 0; k < n; ++k)
       targets[k][p] = filling < least_filling ? std::numeric_limits<double>::quiet_NaN()
-                      : is_state(k)           ? sources[k][nearest[p]]
-                                              : targets[k][p] / filling;
+                      : states[k]             ? sources[k][nearest[p]]
+                                              : sum[k] / filling;
   });
   return image;
 }

@@ -76,7 +76,7 @@ Layout::Layout(int w, int h, int count, const Window& wanted, const Window& limi
   for (std::size_t a = 0; a < 2; ++a) {
     const double middle = 0.5 * (view.low[a] + view.high[a]), half = 0.5 * room[a] / scale;
     const double low = std::max(limits.low[a], middle - half), high = std::min(limits.high[a], middle + half);
-    size[a] = std::clamp(std::floor((high - low) * scale + 0.5), 1.0, std::max(1.0, std::floor(room[a])));
+    size[a] = std::clamp(std::floor((high - low) * scale + 1e-6), 1.0, std::max(1.0, std::floor(room[a])));
     const double centre = 0.5 * (low + high);
     window.low[a] = centre - 0.5 * size[a] / scale;
     window.high[a] = centre + 0.5 * size[a] / scale;

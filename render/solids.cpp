@@ -96,7 +96,7 @@ class Occlusion {
             const auto [dx, dy, unused] = steps[k];
             hidden += std::max(0.0f, rise(dx, dy) + rise(-dx, -dy));
           }
-          open_[at(i, j)] = 1 - std::min(0.75f, 0.75f * hidden / pairs);
+          open_[at(i, j)] = 1 - std::min(0.65f, 0.65f * hidden / pairs);
         }
     });
   }
@@ -196,7 +196,7 @@ Raster draw_solids(const Solids& solids, const Camera& camera, int width, int he
           const float facing = std::max(0.0f, point.normal.dot(toward_light));
           const float lit = facing > 0 ? facing * shadows->light_at(place, point.normal) : 0;
           const float sky = 0.5f + 0.5f * point.normal[2];
-          const V shaded = own * std::min(1.12f, open * (0.24f + 0.30f * sky) + 0.62f * lit * (0.4f + 0.6f * open));
+          const V shaded = own * std::min(1.12f, open * (0.36f + 0.30f * sky) + 0.50f * lit * (0.4f + 0.6f * open));
           const float haze = 0.22f * std::clamp(-place[2] / haze_depth, 0.0f, 1.0f);
           return shaded + haze * (paper - shaded);
         };

@@ -106,7 +106,13 @@ std::string frame_json(const PipelineSettings& s, std::span<const Channel> chann
       << ",\"nodes_per_h\":" << to_json(s.nodes_per_h) << ",\"kernel_support\":" << to_json(s.kernel_support)
       << ",\"fragment_target\":" << to_json(s.fragment_target) << ",\"prefixes\":" << json_list(si_prefixes)
       << ",\"channels\":" << json_list(s.channels)
-      << ",\"bodies\":" << json_list(s.bodies) << ",\"slice_fields\":" << json_list(s.slice_fields) << ",\"fields\":{";
+      << ",\"slice_fields\":" << json_list(s.slice_fields) << ",\"bodies\":[";
+  const char* between = "";
+  for (const PipelineSettings::DrawnBody& body : s.bodies) {
+    out << between << "{\"name\":" << to_json(body.name) << ",\"breaks\":" << (body.breaks ? "true" : "false") << '}';
+    between = ",";
+  }
+  out << "],\"fields\":{";
   const char* separator = "";
   for (const auto& [name, unit] : units_of(channels)) {
     const auto style = s.styles.find(name);

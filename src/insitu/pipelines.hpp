@@ -27,7 +27,11 @@ struct PipelineSettings {
   double nodes_per_h = 1.3;                   ///< node spacings per smoothing length
   double kernel_support = 2;                  ///< of the kernel, in smoothing lengths
   std::string fragment_target = "target";     ///< body that fragments are counted of
-  std::vector<std::string> bodies;            ///< their names, in the order of the scene
+  struct DrawnBody {
+    std::string name;
+    bool breaks = false;  ///< its material knows damage
+  };
+  std::vector<DrawnBody> bodies;              ///< in the order of the scene
   std::vector<std::string> slice_fields;      ///< panels of a slice, in this order
   std::map<std::string, FieldStyle> styles;   ///< field -> how it is shown; others have a plain_style
 };

@@ -84,8 +84,16 @@ void add_strengths(Extremes& e, const Scene& scene, const std::vector<Material>&
   if (is_set(e.tension)) e.pressure = std::max(is_set(e.pressure) ? e.pressure : 0.0, 3 * e.tension);
 }
 
-/// Where the range of pressure goes far beyond what matter bears colours follow its logarithm, both ways from zero.
-constexpr double far_beyond = 10;
+/// Colours of pressure in solids follow its logarithm, both ways from zero, from what matter bears on, and from this part
+/// of the range at the latest.
+constexpr double linear_part = 0.03;
+
+/// Away from zero to two digits: ends of a colour bar that nobody has given are round.
+double rounded(double value) {
+  if (value == 0 || !std::isfinite(value)) return value;
+  const double unit = std::pow(10, std::floor(std::log10(std::abs(value))) - 1);
+  return std::copysign(std::ceil(std::abs(value) / unit * (1 - 1e-9)) * unit, value);
+}
 
 }  // namespace
 
@@ -104,7 +112,7 @@ std::map<std::string, FieldStyle> field_styles(const Scene& scene, const Extreme
   for (const Row& row : table) {
     FieldStyle& style = styles.try_emplace(row.field, FieldStyle{row.label, row.map, {}}).first->second;
     if (!row.range) continue;
-    const ColourRange range = row.range(expected);
+    const ColourRange given = row.range(expected), range{rounded(given.min), rounded(given.max)};
     if (range.max > range.min) style.range = range;  // a scene at rest leaves nothing to tell a range from
   }
   for (const auto& [name, range] : scene.insitu.ranges) {
@@ -112,9 +120,8 @@ std::map<std::string, FieldStyle> field_styles(const Scene& scene, const Extreme
     style->second.range = range;
   }
   FieldStyle& pressure = styles.at("pressure");
-  if (pressure.range && is_set(expected.onset) &&
-      std::max(-pressure.range->min, pressure.range->max) > far_beyond * expected.onset)
-    pressure.linear_to = expected.onset;
+  if (pressure.range && is_set(expected.onset))
+    pressure.linear_to = std::min(expected.onset, linear_part * std::max(-pressure.range->min, pressure.range->max));
   return styles;
 }
 

@@ -69,9 +69,14 @@ bool shows_damage(const Sph<Dim>* solids) {
   return solids && solids->particles.has(Field::damage);
 }
 
-/// What a body of that speed [m/s] does to gas at rest that it pushes: about a simple shock before a piston.
+/// With solids besides, and what a body of their speed does to gas at rest that it pushes: about a simple shock before a
+/// piston.
 template <int Dim>
-Extremes pushed(Extremes e, const CellState<Dim>& gas, double speed) {
+Extremes with_solids(Extremes e, const Scene& scene, const CellState<Dim>& gas, const Sph<Dim>& solids) {
+  const Extremes theirs = extremes(scene, solids.materials, solids.outset);
+  const double speed = solids.outset.speed;
+  e.tension = theirs.tension;
+  e.onset = theirs.onset;
   e.pressure = std::max(e.pressure, gas.pressure + gas.density * speed * (gas.sound_speed + speed));
   e.density = std::max(e.density, gas.density * std::min(6.0, 1 + speed / gas.sound_speed));
   return e;
@@ -93,9 +98,9 @@ Window limits_of(const Box<Dim>& box) {
 template <int Dim>
 PicturePlan plan_of(const Simulation& sim, const Grid<Dim>& grid) {
   const Sph<Dim>* solids = solids_of(find_package<Hybrid<Dim>>(sim));
-  Extremes extremes = expected(sim.scene, grid);
-  if (solids) extremes = pushed(extremes, grid.ambient(), solids->outset.speed);
-  PicturePlan plan{view_of(sim.scene, grid), limits_of(grid.box()), {"density", "pressure"}, field_styles(sim.scene, extremes)};
+  Extremes largest = expected(sim.scene, grid);
+  if (solids) largest = with_solids(largest, sim.scene, grid.ambient(), *solids);
+  PicturePlan plan{view_of(sim.scene, grid), limits_of(grid.box()), {"density", "pressure"}, field_styles(sim.scene, largest)};
   plan.slice_fields.emplace_back(shows_damage(solids) ? "damage" : "mach");
   return plan;
 }

@@ -27,12 +27,16 @@ PipelineSettings pipeline_settings(const Sph<Dim>& sph) {
   settings.channels = {"particles", "slice", "ellipsoids"};
   if (Dim == 3) settings.channels.push_back("volume");
   if (scene.fragments.enabled) settings.channels.push_back("fragments");
-  settings.particle_radius = 0.6 * scene.spacing;
   settings.nodes_per_h = scene.numerics.nodes_per_h;
-  settings.radius_per_smoothing_length = 0.6 / settings.nodes_per_h;
+  const double radius = Dim == 2 ? 0.71 : 0.6;  // node spacings: discs of a square lattice leave no gaps
+  settings.particle_radius = radius * scene.spacing;
+  settings.radius_per_smoothing_length = radius / settings.nodes_per_h;
   settings.fragment_target = scene.bodies[target_body(scene, sph.outset.bodies)].name;
   settings.kernel_support = kernel_support(scene.numerics.kernel);
-  for (const Body& body : scene.bodies) settings.bodies.push_back(body.name);
+  for (const Body& body : scene.bodies) {
+    const auto material = std::ranges::find(sph.materials, body.material, &Material::name);
+    settings.bodies.push_back({body.name, material != sph.materials.end() && material->damage.has_value()});
+  }
   return settings;
 }
 

@@ -102,7 +102,7 @@ struct ShatteredBall {
     PipelineSettings s;
     s.run_folder = run_folder;
     s.channels = {"particles", "slice", "ellipsoids", "volume", "fragments"};
-    s.bodies = {"ball"};
+    s.bodies = {{"ball", true}};
     s.image_width = 960;
     s.image_height = 720;
     s.scene_title = "Shattered ball";

@@ -79,9 +79,9 @@ TEST(FrameSchedule, SaysWhy) {
   scene.output.times = {3};
   scene.insitu.every = {"2 steps"};
   FrameSchedule schedule(scene);
-  const std::vector<std::string> expected{"frame",         "",      "every 2 steps", "output.times",
+  const std::vector<std::string> expected{"every 2 steps", "",      "every 2 steps", "output.times",
                                           "every 2 steps", "frame", "every 2 steps", "",
-                                          "every 2 steps", "",      "frame"};
+                                          "every 2 steps", "",      "every 2 steps"};
   for (int step = 0; step <= 10; ++step) {
     const FrameSchedule::Due due = schedule.take({step, 1.0 * step, 0}, step == 10);
     EXPECT_EQ(due.reason, expected[static_cast<std::size_t>(step)]) << step;

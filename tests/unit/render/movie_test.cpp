@@ -51,6 +51,43 @@ TEST(Movie, HasAFrameForEveryImageOfAView) {
   EXPECT_NE(report.problems[0].find("lost.png"), std::string::npos);
 }
 
+/// A run of two views with a picture a step, drawn for these reasons.
+fs::path run_of(const std::string& name, const std::vector<std::string>& reasons) {
+  const fs::path run = fs::path(testing::TempDir()) / name;
+  fs::remove_all(run);
+  fs::create_directories(run / "images");
+  std::ofstream data(run / "images/data.csv");
+  data << "time,step,view,reason,FILE\n";
+  for (std::size_t k = 0; k < reasons.size(); ++k)
+    for (const std::string view : {"slice", "cutaway"}) {
+      const std::string file = view + '_' + std::to_string(k) + ".png";
+      write_png(run / "images" / file, Raster(64, 36, static_cast<std::uint32_t>(k * 0x0F0F0F)));
+      data << k << ',' << k << ',' << view << ',' << reasons[k] << ',' << file << '\n';
+    }
+  return run;
+}
+
+TEST(Movie, FramesThatBelongToNoScheduleAreLeftOut) {
+  const auto frames = [](const std::vector<std::string>& reasons) {
+    return make_movies(run_of("ejecta_odd_frames", reasons)).movies.at(0).frames;
+  };
+  EXPECT_EQ(frames({"frame", "frame", "asked for", "frame", "end", "frame", "frame"}), 5u);
+  EXPECT_EQ(frames({"frame", "frame", "end"}), 3u);  // that of a run which has not gone on
+  EXPECT_EQ(frames({"frame", "every 2 steps", "every 2 steps", "frame", "every 2 steps", "frame"}), 5u);
+  EXPECT_EQ(frames({"frame", "output.times", "first contact", "frame"}), 4u);
+}
+
+TEST(Movie, AMontageShowsAllViewsAfterTheTitle) {
+  const fs::path run = run_of("ejecta_montage", {"frame", "frame", "frame", "frame"});
+  EXPECT_EQ(make_movies(run).movies.size(), 2u);  // no title, no montage
+  write_title_card(run, "A scene with a \"title\": 100 %", {"scene x", "commit y"});
+  const MovieReport report = make_movies(run);
+  ASSERT_EQ(report.movies.size(), 3u) << (report.problems.empty() ? "" : report.problems.back());
+  EXPECT_EQ(report.movies[2].file.filename(), "montage.mp4");
+  // At four frames a second two seconds of title, four frames, and one second of the last.
+  EXPECT_EQ(decoded(report.movies[2].file), "1920,540,yuv420p,16\n");
+}
+
 TEST(Movie, AFolderWithoutImagesIsAProblemNotACrash) {
   const MovieReport report = make_movies(fs::path(testing::TempDir()) / "no_such_run");
   EXPECT_TRUE(report.movies.empty());
