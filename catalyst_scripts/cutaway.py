@@ -21,5 +21,5 @@ def catalyst_execute(info):
     if view is None:
         words = "particles, the near half cut away" if solid else "particles"
         view = ejecta.View("cutaway" if solid else "particles", f"{words}, by {ejecta.label(field)}").look_at_scene()
-    view.particles(source, field, behind=s["view_center"][1] if solid else None)
+        view.spheres(source, field, behind=s["view_center"][1] if solid else None)
     view.save(info)

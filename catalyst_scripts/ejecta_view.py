@@ -176,7 +176,7 @@ class View:
         self.name, self.subtitle, self.key_width = name, subtitle, key_width
         self.size = settings()["image_size"]
         self.solids = {}  # arguments of draw_solids
-        self.bar = self.entries = self._paraview = None
+        self.bar = self.entries = self._paraview = self._particles = None
 
     # -- camera --
 
@@ -201,12 +201,17 @@ class View:
 
     # -- what is seen --
 
-    def spheres(self, places, radii, rgb):
-        """Particles as shaded spheres, in the plane as discs; colours 0xRRGGBB."""
+    def balls(self, places, radii, rgb):
+        """Shaded spheres, in the plane discs, of this frame; colours 0xRRGGBB."""
         self.solids.update(flat=settings()["dimension"] == 2, places=places, radii=radii, rgb=rgb)
 
-    def particles(self, source, field, behind=None):
-        """Particles as spheres of their own size coloured by a field; `behind`: only those with y above it."""
+    def spheres(self, source, field, behind=None):
+        """Particles as spheres of their own size coloured by a field, in every frame from now on; `behind`: only those
+        with y above it."""
+        self._particles = source, field, behind
+        self.colour_bar(field, source)
+
+    def _show_particles(self, source, field, behind):
         keep = slice(None) if behind is None else column(source, "position_y") >= behind
         rgb = colour_scale(field, source).colours(column(source, field)[keep])
         if field.startswith("damage") and "body" in fields(source):  # what cannot break has the colour of its body
@@ -214,7 +219,7 @@ class View:
                                    for i, b in enumerate(settings()["bodies"])], numpy.uint32)
             own = colours[column(source, "body")[keep]]
             rgb = numpy.where(own != 0, own, rgb)
-        self.spheres(places_of(source)[keep], radii_of(source)[keep], rgb)
+        self.balls(places_of(source)[keep], radii_of(source)[keep], rgb)
         self.colour_bar(field, source)
 
     def surface(self, points, normals, rgb, triangles, plate=None, corner=(0, 0, 0), across=(1, 0, 0), upwards=(0, 0, 1)):
@@ -297,6 +302,8 @@ class View:
     def save(self, info):
         """Draws the view and writes images/<name>_<step>.png."""
         s = settings()
+        if self._particles:
+            self._show_particles(*self._particles)
         sheet = ejecta_paint.Sheet(self.layout, s["scene_title"], self.subtitle, info.time, s["time_end"] or 0.0)
         if self._paraview is not None:
             sheet.put(0, self._captured(info))

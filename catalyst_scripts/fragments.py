@@ -57,6 +57,6 @@ def catalyst_execute(info):
         keep = (own != 0) | (ejecta.column(source, "position_y") >= s["view_center"][1])
     radii = ejecta.radii_of(source)
     radii[own == 0] *= DUST_SIZE
-    view.spheres(ejecta.places_of(source)[keep], radii[keep], colours[own[keep]])
+    view.balls(ejecta.places_of(source)[keep], radii[keep], colours[own[keep]])
     view.legend("fragments, largest first", entries(mass, colours))
     view.save(info)

@@ -73,7 +73,7 @@ def catalyst_execute(info):
     places = ejecta.places_of(source)
     at, within = nearest_points(places)
     lone = within & (ejecta.column(volume, "filling")[at] < LONE) & (places[:, 1] >= s["view_center"][1])
-    view.spheres(places[lone], SPRAY * ejecta.radii_of(source)[lone], palette[ejecta.column(source, "body")[lone]])
+    view.balls(places[lone], SPRAY * ejecta.radii_of(source)[lone], palette[ejecta.column(source, "body")[lone]])
     mesh = outside(palette)
     if mesh is not None:
         view.surface(*mesh, **face(field))

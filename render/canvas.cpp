@@ -102,7 +102,8 @@ Raster Canvas::raster() const {
   const std::size_t stride = static_cast<std::size_t>(cairo_image_surface_get_stride(surface_.get()));
   const std::size_t row_length = static_cast<std::size_t>(copy.width);
   for (std::size_t j = 0; j < static_cast<std::size_t>(copy.height); ++j)
-    std::copy_n(reinterpret_cast<const std::uint32_t*>(rows + j * stride), row_length, copy.rgb.data() + j * row_length);
+    std::copy_n(reinterpret_cast<const std::uint32_t*>(rows + j * stride), row_length,
+                copy.rgb.data() + j * row_length);
   for (std::uint32_t& pixel : copy.rgb) pixel &= 0xFFFFFFu;
   return copy;
 }

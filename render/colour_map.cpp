@@ -110,14 +110,14 @@ std::vector<std::uint32_t> coloured(std::span<const double> values, const Colour
   std::vector<std::uint32_t> rgb(values.size());
   parallel_for(0, rgb.size(), [&](std::size_t i) {
     const double place = scale.place(values[i]);
-    rgb[i] = std::isnan(place) ? nothing
-                               : table[static_cast<std::size_t>(std::lround(steps * std::clamp(place, 0.0, 1.0)))];
+    rgb[i] =
+        std::isnan(place) ? nothing : table[static_cast<std::size_t>(std::lround(steps * std::clamp(place, 0.0, 1.0)))];
   });
   return rgb;
 }
 
 Colour rank_colour(int rank) {
-  constexpr std::uint32_t strong[] = {0xD55E00, 0x0072B2, 0x009E73, 0x8E44AD, 0xE6A800};
+  constexpr std::uint32_t strong[] = {0xD55E00, 0x0072B2, 0x009E73, 0x7B1FA2, 0xE6A800};
   if (rank <= 0) return {0.80, 0.81, 0.83};
   if (rank <= 5) return unpacked(strong[rank - 1]);
   // Steps of the golden section round the circle of hues keep neighbours apart.

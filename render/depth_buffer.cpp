@@ -1,7 +1,7 @@
 #include "render/depth_buffer.hpp"
 
-#include <Eigen/LU>
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -27,13 +27,16 @@ std::array<int, 2> samples_within(float low, float high, int count) {
   return {static_cast<int>(std::clamp(first, 0.0f, n)), static_cast<int>(std::clamp(last + 1, 0.0f, n))};
 }
 
-std::array<float, 2> extent(const float (&v)[3]) { return {std::min({v[0], v[1], v[2]}), std::max({v[0], v[1], v[2]})}; }
+std::array<float, 2> extent(const float (&v)[3]) {
+  return {std::min({v[0], v[1], v[2]}), std::max({v[0], v[1], v[2]})};
+}
 
 /// For each band of rows the things that reach into it, in their order.
 class Bands {
  public:
   template <class Rows>
-  Bands(std::size_t things, int height, Rows&& rows_of) : start_(static_cast<std::size_t>((height + band - 1) / band) + 1, 0) {
+  Bands(std::size_t things, int height, Rows&& rows_of)
+      : start_(static_cast<std::size_t>((height + band - 1) / band) + 1, 0) {
     const auto each = [&](std::size_t k, auto&& visit) {
       const auto [low, high] = rows_of(k);
       for (int b = low / band; low < high && b <= (high - 1) / band; ++b) visit(static_cast<std::size_t>(b));
@@ -45,7 +48,9 @@ class Bands {
     for (std::size_t k = 0; k < things; ++k)
       each(k, [&](std::size_t b) { things_[next[b]++] = static_cast<std::uint32_t>(k); });
   }
-  std::span<const std::uint32_t> of(std::size_t b) const { return {things_.data() + start_[b], start_[b + 1] - start_[b]}; }
+  std::span<const std::uint32_t> of(std::size_t b) const {
+    return {things_.data() + start_[b], start_[b + 1] - start_[b]};
+  }
 
  private:
   std::vector<std::size_t> start_;
@@ -102,8 +107,12 @@ Screen::Screen(const Solids& solids, const Camera& camera, int w, int h) : width
                                static_cast<float>(dv)};
   };
   const Vec<2> slope = inverse.transpose() * Vec<2>(across[2], upwards[2]);
-  plate = {linear(inverse(0, 0), inverse(0, 1), 0), linear(inverse(1, 0), inverse(1, 1), 0),
-           linear(slope[0], slope[1], corner[2]), solids.plate.width, solids.plate.height, solids.plate.rgb};
+  plate = {linear(inverse(0, 0), inverse(0, 1), 0),
+           linear(inverse(1, 0), inverse(1, 1), 0),
+           linear(slope[0], slope[1], corner[2]),
+           solids.plate.width,
+           solids.plate.height,
+           solids.plate.rgb};
 }
 
 DepthBuffer::DepthBuffer(const Screen& screen)

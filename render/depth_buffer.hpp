@@ -44,8 +44,8 @@ struct Screen {
 struct DepthBuffer {
   static constexpr float empty = -std::numeric_limits<float>::infinity();
   int width = 0, height = 0, stride = 0;  ///< stride: from a row to the next, with room for a vector beyond its end
-  std::vector<float> depth;             ///< toward the eye; `empty` where there is nothing
-  std::vector<std::uint32_t> thing;     ///< numbered: spheres, then triangles, then the plate
+  std::vector<float> depth;               ///< toward the eye; `empty` where there is nothing
+  std::vector<std::uint32_t> thing;       ///< numbered: spheres, then triangles, then the plate
 
   /// Of equal depths the first one stays: the picture does not depend on the threads.
   explicit DepthBuffer(const Screen& screen);

@@ -83,7 +83,8 @@ mpa(p) = p / 1e6 > left ? p / 1e6 : left
 set key top right
 plot 'figures/compaction.csv' using ($3 == 0 ? mpa($1) : NaN):2 with points ls 1 ps 0.3 notitle, \
      '' using ($3 != 0 ? mpa($1) : NaN):2 with points ls 4 ps 0.3 notitle, \
-     'figures/crush_curve.csv' using ($1 / 1e6):2 with lines lc rgb 'red' lw 2 dt 2 title 'crush curve', \
+     'figures/crush_curve.csv' using ($1 / 1e6):2 with lines lc rgb 'white' lw 5 notitle, \
+     '' using ($1 / 1e6):2 with lines lc rgb '#d62728' lw 2 title 'crush curve', \
      keyentry with points ls 4 ps 1 title 'particles, loading', \
      keyentry with points ls 1 ps 1 title 'particles, released or untouched'
 )";
@@ -174,8 +175,8 @@ set y2range [0:*]
 set y2tics nomirror
 set border 11
 set key bmargin center horizontal
-plot 'largest_fragment.csv' using ($1 / t):($2 * 100) with lines ls 1 title 'largest fragment', \
-     '' using ($1 / t):($4 * 100) with lines ls 2 title 'dust', \
+plot 'largest_fragment.csv' using ($1 / t):($2 * 100) with steps ls 1 title 'largest fragment', \
+     '' using ($1 / t):($4 * 100) with steps ls 2 title 'dust', \
      '' using ($1 / t):3 axes x1y2 with steps ls 4 dt 2 title 'fragments (right)'
 )";
 }

@@ -67,7 +67,8 @@ std::vector<View> read_views(const fs::path& folder, std::vector<std::string>& p
   for (const std::vector<std::string>& row : table.rows) {
     const fs::path image = fs::absolute(folder / row[file_column]);
     if (image.extension() != ".png" && image.extension() != ".jpg") continue;  // data that a pipeline has written
-    const bool at_an_end = cell(row, time) == cell(table.rows.front(), time) || cell(row, time) == cell(table.rows.back(), time);
+    const bool at_an_end =
+        cell(row, time) == cell(table.rows.front(), time) || cell(row, time) == cell(table.rows.back(), time);
     if (!at_an_end && odd.hold(row)) continue;
     if (!fs::exists(image)) {
       problems.push_back(fmt::format("{}: image is missing, left out of the movie", image.string()));
@@ -112,7 +113,8 @@ std::string encode(const fs::path& run_folder, const std::string& name, int rate
   for (const char* word : {"-an", "-filter_complex"}) command.emplace_back(word);
   command.push_back(filter);
   for (const std::string& word : {std::string("-r"), std::to_string(rate)}) command.push_back(word);
-  for (const char* word : {"-c:v", "libx264", "-preset", "fast", "-crf", "19", "-pix_fmt", "yuv420p", "-movflags", "+faststart"})
+  for (const char* word :
+       {"-c:v", "libx264", "-preset", "fast", "-crf", "19", "-pix_fmt", "yuv420p", "-movflags", "+faststart"})
     command.emplace_back(word);
   command.push_back(part);
   const std::string problem = run_program(command, run_folder);
@@ -150,24 +152,28 @@ std::string encode_montage(const fs::path& run_folder, const std::vector<View>& 
   const int columns = views.size() > 1 ? 2 : 1;
   const int rows = (static_cast<int>(views.size()) + columns - 1) / columns;
   const int tile_width = width / columns, tile_height = height / columns;
-  std::vector<std::string> inputs{"-loop", "1", "-framerate", std::to_string(rate), "-t", std::to_string(title_seconds),
-                                  "-i", title_card};
+  std::vector<std::string> inputs{
+      "-loop", "1", "-framerate", std::to_string(rate), "-t", std::to_string(title_seconds), "-i", title_card};
   const auto fit = [](int w, int h) {
-    return fmt::format("scale={0}:{1}:force_original_aspect_ratio=decrease,pad={0}:{1}:(ow-iw)/2:(oh-ih)/2:color=white,setsar=1",
-                       w, h);
+    return fmt::format(
+        "scale={0}:{1}:force_original_aspect_ratio=decrease,pad={0}:{1}:(ow-iw)/2:(oh-ih)/2:color=white,setsar=1", w,
+        h);
   };
   std::string filter = fmt::format("[0]{}[title];", fit(width, tile_height * rows)), stacked, places;
   std::vector<std::unique_ptr<ListFile>> lists;
   for (std::size_t k = 0; k < views.size(); ++k) {
-    lists.push_back(std::make_unique<ListFile>(run_folder, fmt::format("montage_{}", k), in_step(views[k], leader), rate));
+    lists.push_back(
+        std::make_unique<ListFile>(run_folder, fmt::format("montage_{}", k), in_step(views[k], leader), rate));
     for (const std::string& word : lists.back()->input()) inputs.push_back(word);
-    filter += fmt::format("[{}]settb=1/{},setpts=N,{}[v{}];", k + 1, rate, fit(tile_width, tile_height), k);
+    filter +=
+        fmt::format("[{}]settb=1/{},setpts=N,fps={},{}[v{}];", k + 1, rate, rate, fit(tile_width, tile_height), k);
     stacked += fmt::format("[v{}]", k);
     const int column = static_cast<int>(k) % columns, row = static_cast<int>(k) / columns;
     places += fmt::format("{}{}_{}", k ? "|" : "", column * tile_width, row * tile_height);
   }
-  filter += views.size() > 1 ? fmt::format("{}xstack=inputs={}:layout={}:fill=white[all];", stacked, views.size(), places)
-                             : std::string("[v0]null[all];");
+  filter += views.size() > 1
+                ? fmt::format("{}xstack=inputs={}:layout={}:fill=white[all];", stacked, views.size(), places)
+                : std::string("[v0]null[all];");
   filter += fmt::format("[all]tpad=stop_mode=clone:stop_duration={}[whole];[title][whole]concat=n=2:v=1", end_seconds);
   return encode(run_folder, "montage", rate, inputs, filter);
 }
@@ -198,7 +204,8 @@ MovieReport make_movies(const fs::path& run_folder, int frames_per_second) {
     const int four_seconds = static_cast<int>(std::lround(static_cast<double>(frames) / 4));
     return frames_per_second > 0 ? frames_per_second : std::clamp(four_seconds, 4, 24);
   };
-  const auto note = [&](const std::string& view, const std::string& name, std::size_t frames, const std::string& problem) {
+  const auto note = [&](const std::string& view, const std::string& name, std::size_t frames,
+                        const std::string& problem) {
     if (problem.empty())
       report.movies.push_back({view, run_folder / (name + ".mp4"), frames});
     else
@@ -213,7 +220,8 @@ MovieReport make_movies(const fs::path& run_folder, int frames_per_second) {
                 fmt::format("settb=1/{0},setpts=N,pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white", rate)));
   }
   if (!views.empty() && fs::exists(run_folder / title_card)) {
-    const std::size_t frames = std::ranges::max(views, {}, [](const View& v) { return v.pictures.size(); }).pictures.size();
+    const std::size_t frames =
+        std::ranges::max(views, {}, [](const View& v) { return v.pictures.size(); }).pictures.size();
     note("montage", "montage", frames, encode_montage(run_folder, views, rate_of(frames)));
   }
   return report;

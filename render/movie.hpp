@@ -26,9 +26,10 @@ void write_title_card(const std::filesystem::path& run_folder, const std::string
 
 /// Reads images/data.csv (columns `view` and `FILE`, the path of the image relative to images/, in order of time) and
 /// encodes H.264 in yuv420p with even sizes by ffmpeg: movie_<view>.mp4, and, where there is a title card, montage.mp4,
-/// which shows all views at once. Pictures that somebody asked for, or of a place where a run was cut short that has gone
-/// on since, are left out, and of several schedules (insitu.frames, insitu.every) all but the densest. `frames_per_second` 0: 24, and fewer where the movie would last less than four seconds.
-/// Movies of earlier calls are replaced. Never throws for what the folder lacks.
+/// which shows all views at once. Pictures that somebody asked for, or of a place where a run was cut short that has
+/// gone on since, are left out, and of several schedules (insitu.frames, insitu.every) all but the densest.
+/// `frames_per_second` 0: 24, and fewer where the movie would last less than four seconds. Movies of earlier calls are
+/// replaced. Never throws for what the folder lacks.
 MovieReport make_movies(const std::filesystem::path& run_folder, int frames_per_second = 0);
 
 }  // namespace ejecta

@@ -36,8 +36,7 @@ bool write_rows(std::FILE* file, const Raster& raster, png_structp png, png_info
   for (int j = 0; j < raster.height; ++j) {
     const std::uint32_t* rgb = raster.rgb.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(raster.width);
     for (int i = 0; i < raster.width; ++i)
-      for (int part = 0; part < 3; ++part)
-        row[3 * i + part] = static_cast<png_byte>(rgb[i] >> (16 - 8 * part) & 255u);
+      for (int part = 0; part < 3; ++part) row[3 * i + part] = static_cast<png_byte>(rgb[i] >> (16 - 8 * part) & 255u);
     png_write_row(png, row);
   }
   png_write_end(png, info);

@@ -131,6 +131,9 @@ SampledImage sample_slice(const ParticleView& particles, std::span<const FieldVi
       splats.push_back(
           splat_of(i, x[i], y[i], {Vec<2>::Zero(), 0, g}, volume * std::sqrt(g.determinant()), kernel.support));
     } else {
+      if (particles.smoothing_metric[0].empty() &&
+          std::abs(plane_y - y[i]) > kernel.support * particles.smoothing_length[i])
+        continue;  // most are, and it is easily seen
       const Mat<3> g = particles.metric<3>(i);
       const Footprint print = section(g, plane_y - y[i]);
       if (print.least < kernel.support * kernel.support)
@@ -162,7 +165,8 @@ SampledImage sample_slice(const ParticleView& particles, std::span<const FieldVi
   SampledImage image{grid, {}};
   std::vector<double*> targets;
   for (const FieldView& f : fields)
-    image.fields.push_back({f.name, f.unit, std::vector<std::vector<double>>(f.components.size(), std::vector<double>(count))});
+    image.fields.push_back(
+        {f.name, f.unit, std::vector<std::vector<double>>(f.components.size(), std::vector<double>(count))});
   image.fields.push_back({"filling", "1", {std::vector<double>(count)}});
   for (SampledImage::Field& f : image.fields)
     for (std::vector<double>& component : f.components) targets.push_back(component.data());

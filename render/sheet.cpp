@@ -65,7 +65,8 @@ Layout::Layout(int w, int h, int count, const Window& wanted, const Window& limi
   const double beside_width = (w - left - edge * font - (n - 1) * gap_beside * font) / n,
                beside_height = h - top - (axis_height + bar_height) * font;
   const double above_width = w - left - (edge + key_width) * font,
-               above_height = (h - band_height * font - axis_height * font - (n - 1) * gap_above * font) / n - title_height * font;
+               above_height =
+                   (h - band_height * font - axis_height * font - (n - 1) * gap_above * font) / n - title_height * font;
   const double beside = std::min(beside_width / view.width(), beside_height / view.height()),
                above = std::min(above_width / view.width(), above_height / view.height());
   keys_below = beside > above;
@@ -84,17 +85,20 @@ Layout::Layout(int w, int h, int count, const Window& wanted, const Window& limi
   for (int k = 0; k < count; ++k) {
     const double x = keys_below ? left + k * (beside_width + gap_beside * font) + 0.5 * (room[0] - size[0])
                                 : left + 0.5 * (room[0] - size[0]);
-    const double y = keys_below ? top + 0.5 * (room[1] - size[1])
-                                : top + k * (above_height + (title_height + gap_above) * font) + 0.5 * (room[1] - size[1]);
+    const double y = keys_below
+                         ? top + 0.5 * (room[1] - size[1])
+                         : top + k * (above_height + (title_height + gap_above) * font) + 0.5 * (room[1] - size[1]);
     panes.push_back({std::floor(x), std::floor(y), size[0], size[1]});
   }
 }
 
 PixelGrid Layout::grid(double finest) const {
   const int coarse = std::max(1, static_cast<int>(finest / pixel()));
-  const int columns = std::max(1, static_cast<int>(panes[0].width) / coarse), rows = std::max(1, static_cast<int>(panes[0].height) / coarse);
+  const int columns = std::max(1, static_cast<int>(panes[0].width) / coarse),
+            rows = std::max(1, static_cast<int>(panes[0].height) / coarse);
   const double size = std::max(window.width() / columns, window.height() / rows);
-  return {columns, rows,
+  return {columns,
+          rows,
           {0.5 * (window.low[0] + window.high[0]) - 0.5 * (columns - 1) * size,
            0.5 * (window.low[1] + window.high[1]) - 0.5 * (rows - 1) * size},
           size};
@@ -106,7 +110,8 @@ Sheet::Sheet(Layout layout, const Caption& caption)
   canvas_.fill({0, 0, width, band_height * f}, band_colour);
   const double after = edge * f + canvas_.text(edge * f, line, caption.title, 1.15 * f, ink, Align::left, true);
   const std::string time = "t = " + time_text(caption.time, caption.time_end);
-  const double before = width - edge * f - canvas_.text(width - edge * f, line, time, 1.15 * f, ink, Align::right, true);
+  const double before =
+      width - edge * f - canvas_.text(width - edge * f, line, time, 1.15 * f, ink, Align::right, true);
   canvas_.text_within({after + 1.5 * f, 0, before - after - 3 * f, band_height * f}, line, caption.subtitle, f, faint);
 }
 
@@ -124,7 +129,7 @@ void Sheet::axes(int pane, const std::array<std::string, 2>& names) {
   const PixelBox& b = box(pane);
   const double f = layout_.font;
   const Window& w = layout_.window;
-  const DisplayUnit unit = display_unit(0.2 * std::max(w.width(), w.height()), "m");
+  const DisplayUnit unit = display_unit(std::max(w.width(), w.height()), "m");
   const bool lowest = layout_.keys_below || pane + 1 == static_cast<int>(layout_.panes.size());
   const bool leftmost = !layout_.keys_below || pane == 0;
   const auto ticks = [&](std::size_t a, double length) {
@@ -167,8 +172,9 @@ void Sheet::colour_bar(int pane, const ColourScale& scale, const std::string& un
   const double f = layout_.font;
   const bool below = layout_.keys_below;
   const double inset = 0.04 * (below ? b.width : b.height);
-  const PixelBox bar = below ? PixelBox{b.x + inset, b.y + b.height + (axis_height + 0.3) * f, b.width - 2 * inset, 0.8 * f}
-                        : PixelBox{b.x + b.width + 0.9 * f, b.y + inset, 0.8 * f, b.height - 2 * inset};
+  const PixelBox bar =
+      below ? PixelBox{b.x + inset, b.y + b.height + (axis_height + 0.3) * f, b.width - 2 * inset, 0.8 * f}
+            : PixelBox{b.x + b.width + 0.9 * f, b.y + inset, 0.8 * f, b.height - 2 * inset};
   constexpr int steps = 512;
   Raster colours = below ? Raster(steps, 1, 0) : Raster(1, steps, 0);
   for (int k = 0; k < steps; ++k)

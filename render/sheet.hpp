@@ -33,8 +33,8 @@ struct Layout {
   int width = 0, height = 0;  ///< pixels of the picture
   double font = 12;           ///< pixels
   bool keys_below = false;
-  std::vector<PixelBox> panes;     ///< pixels, all of one size
-  Window window;              ///< what each of them shows
+  std::vector<PixelBox> panes;  ///< pixels, all of one size
+  Window window;                ///< what each of them shows
 
   /// Each pane shows at least `wanted`, and more where there is room, but nothing beyond `limits`.
   /// `key_width` in fonts: room for what stands to the right of a pane.

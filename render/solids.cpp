@@ -49,7 +49,8 @@ class Shadows {
     return solids;
   }
   static Camera seen_by_light(const Camera& camera) {
-    const Vec<3> light = toward_light[0] * camera.right - toward_light[1] * camera.up + toward_light[2] * camera.toward_eye();
+    const Vec<3> light =
+        toward_light[0] * camera.right - toward_light[1] * camera.up + toward_light[2] * camera.toward_eye();
     Camera c = camera;
     c.right = camera.up.cross(light).normalized();
     c.up = light.cross(c.right);
@@ -66,16 +67,19 @@ class Shadows {
 /// opposite neighbours, so that a slope does not darken itself (recalled, not looked up).
 class Occlusion {
  public:
-  Occlusion(const std::vector<float>& depth, int width, int height) : width_(width), height_(height), open_(depth.size(), 1) {
+  Occlusion(const std::vector<float>& depth, int width, int height)
+      : width_(width), height_(height), open_(depth.size(), 1) {
     const float reach = 0.035f * static_cast<float>(height);
     std::array<std::array<int, 3>, pairs * turns> steps{};  // of each turn: dx, dy and length, at least 1
     std::array<float, pairs * turns> length{};
     for (std::size_t t = 0; t < turns; ++t)
       for (std::size_t k = 0; k < pairs; ++k) {
         const float part = (static_cast<float>(k) + 0.5f) / pairs;
-        const float angle = std::numbers::pi_v<float> * (static_cast<float>(t) / turns + static_cast<float>(k) * 0.618034f);
+        const float angle =
+            std::numbers::pi_v<float> * (static_cast<float>(t) / turns + static_cast<float>(k) * 0.618034f);
         const float d = std::max(1.5f, reach * part * part);
-        const int dx = static_cast<int>(std::lround(d * std::cos(angle))), dy = static_cast<int>(std::lround(d * std::sin(angle)));
+        const int dx = static_cast<int>(std::lround(d * std::cos(angle))),
+                  dy = static_cast<int>(std::lround(d * std::sin(angle)));
         steps[t * pairs + k] = {dx, dy, 0};
         length[t * pairs + k] = std::hypot(static_cast<float>(dx), static_cast<float>(dy));
       }
@@ -169,7 +173,8 @@ Raster draw_solids(const Solids& solids, const Camera& camera, int width, int he
 
   std::vector<float> depth(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));  // of pixels [pixels]
   parallel_for(0, depth.size(), [&](std::size_t p) {
-    const int i = static_cast<int>(p % static_cast<std::size_t>(width)) * fineness, j = static_cast<int>(p / static_cast<std::size_t>(width)) * fineness;
+    const int i = static_cast<int>(p % static_cast<std::size_t>(width)) * fineness,
+              j = static_cast<int>(p / static_cast<std::size_t>(width)) * fineness;
     float nearest = DepthBuffer::empty;
     for (int b = 0; b < fineness; ++b)
       for (int a = 0; a < fineness; ++a) nearest = std::max(nearest, buffer.depth[buffer.index(i + a, j + b)]);
@@ -184,7 +189,8 @@ Raster draw_solids(const Solids& solids, const Camera& camera, int width, int he
   parallel_blocks(static_cast<std::size_t>(height), 8, [&](std::size_t begin, std::size_t end) {
     for (int j = static_cast<int>(begin); j < static_cast<int>(end); ++j)
       for (int i = 0; i < width; ++i) {
-        const std::size_t p = static_cast<std::size_t>(j) * static_cast<std::size_t>(width) + static_cast<std::size_t>(i);
+        const std::size_t p =
+            static_cast<std::size_t>(j) * static_cast<std::size_t>(width) + static_cast<std::size_t>(i);
         if (depth[p] == DepthBuffer::empty) continue;
         const float open = occlusion ? occlusion->at_pixel(depth, i, j) : 1;
         const auto colour_of = [&](float x, float y, float z, std::size_t thing) -> V {
@@ -209,7 +215,8 @@ Raster draw_solids(const Solids& solids, const Camera& camera, int width, int he
             alike = alike && buffer.depth[s] != DepthBuffer::empty && buffer.thing[s] == buffer.thing[first];
           }
         if (alike) {
-          const float x = static_cast<float>(i * fineness) + 0.5f * fineness, y = static_cast<float>(j * fineness) + 0.5f * fineness;
+          const float x = static_cast<float>(i * fineness) + 0.5f * fineness,
+                      y = static_cast<float>(j * fineness) + 0.5f * fineness;
           sum = colour_of(x, y, buffer.depth[first], buffer.thing[first]);
         } else {
           for (int b = 0; b < fineness; ++b)
@@ -218,7 +225,8 @@ Raster draw_solids(const Solids& solids, const Camera& camera, int width, int he
               const std::size_t s = buffer.index(x, y);
               sum += buffer.depth[s] == DepthBuffer::empty
                          ? paper
-                         : colour_of(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, buffer.depth[s], buffer.thing[s]);
+                         : colour_of(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, buffer.depth[s],
+                                     buffer.thing[s]);
             }
           sum /= static_cast<float>(fineness * fineness);
         }

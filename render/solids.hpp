@@ -1,6 +1,6 @@
 #pragma once
-/// Spheres and surfaces, shaded, seen along parallel lines: anti-aliased, with ambient occlusion and shadows. All on the
-/// processor's threads; the same picture bit for bit for any number of them.
+/// Spheres and surfaces, shaded, seen along parallel lines: anti-aliased, with ambient occlusion and shadows. All on
+/// the processor's threads; the same picture bit for bit for any number of them.
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <span>
@@ -13,9 +13,9 @@ namespace ejecta {
 
 /// A parallel projection.
 struct Camera {
-  Vec<3> centre = Vec<3>::Zero();                            ///< in the middle of the picture [m]
-  Vec<3> right = Vec<3>::UnitX(), up = Vec<3>::UnitZ();      ///< unit vectors along the picture's edges
-  double pixel = 1;                                          ///< size of a pixel [m]
+  Vec<3> centre = Vec<3>::Zero();                        ///< in the middle of the picture [m]
+  Vec<3> right = Vec<3>::UnitX(), up = Vec<3>::UnitZ();  ///< unit vectors along the picture's edges
+  double pixel = 1;                                      ///< size of a pixel [m]
 
   Vec<3> toward_eye() const { return right.cross(up); }
 };
@@ -35,8 +35,8 @@ struct Surface {
 
 /// A flat picture in space, not shaded: the face of a cut.
 struct Plate {
-  static constexpr std::uint32_t nothing = 0xFF000000u;  ///< in `rgb`: there is no matter
-  Vec<3> corner = Vec<3>::Zero();                        ///< of the lower left pixel [m]
+  static constexpr std::uint32_t nothing = 0xFF000000u;        ///< in `rgb`: there is no matter
+  Vec<3> corner = Vec<3>::Zero();                              ///< of the lower left pixel [m]
   Vec<3> across = Vec<3>::UnitX(), upwards = Vec<3>::UnitZ();  ///< from a pixel to the next [m]
   int width = 0, height = 0;
   std::span<const std::uint32_t> rgb;  ///< rows upwards

@@ -47,6 +47,11 @@ SampledVolume sample_volume(const ParticleView& p, std::span<const std::int32_t>
   std::vector<Blob> blobs;
   std::vector<std::vector<std::uint32_t>> slabs(static_cast<std::size_t>((lattice.count[2] + slab - 1) / slab));
   for (std::size_t i = 0; i < p.size(); ++i) {
+    if (p.smoothing_metric[0].empty()) {  // most are far away, and easily seen to be
+      const double reach = kernel.support * p.smoothing_length[i];
+      if (y[i] + reach < lattice.first[1] || y[i] - reach > lattice.first[1] + (lattice.count[1] - 1) * lattice.step)
+        continue;
+    }
     const Mat<3> g = p.metric<3>(i);
     const Vec<3> reach = kernel.support * g.inverse().diagonal().cwiseSqrt();
     const auto [low, high] = covered(z[i], reach[2], lattice.first[2], lattice.step, lattice.count[2]);
@@ -63,8 +68,10 @@ SampledVolume sample_volume(const ParticleView& p, std::span<const std::int32_t>
   const std::size_t row_length = static_cast<std::size_t>(lattice.count[0]);
   parallel_blocks(slabs.size(), 1, [&](std::size_t s, std::size_t) {
     const int bottom = static_cast<int>(s) * slab, top = std::min(lattice.count[2], bottom + slab);
-    std::vector<float> most(row_length * static_cast<std::size_t>(lattice.count[1]) * static_cast<std::size_t>(top - bottom), 0.0f);
-    const std::size_t offset = static_cast<std::size_t>(bottom) * static_cast<std::size_t>(lattice.count[1]) * row_length;
+    std::vector<float> most(
+        row_length * static_cast<std::size_t>(lattice.count[1]) * static_cast<std::size_t>(top - bottom), 0.0f);
+    const std::size_t offset =
+        static_cast<std::size_t>(bottom) * static_cast<std::size_t>(lattice.count[1]) * row_length;
     for (const std::uint32_t b : slabs[s]) {
       const auto& [i, g, amplitude, reach] = blobs[b];
       const auto [left, right] = covered(x[i], reach[0], lattice.first[0], lattice.step, lattice.count[0]);
@@ -75,7 +82,9 @@ SampledVolume sample_volume(const ParticleView& p, std::span<const std::int32_t>
           const double dy = lattice.first[1] + k * lattice.step - y[i], dz = lattice.first[2] + c * lattice.step - z[i];
           const double cross = 2 * (g(0, 1) * dy + g(0, 2) * dz);
           const double rest = g(1, 1) * dy * dy + 2 * g(1, 2) * dy * dz + g(2, 2) * dz * dz;
-          const std::size_t row = (static_cast<std::size_t>(c) * static_cast<std::size_t>(lattice.count[1]) + static_cast<std::size_t>(k)) * row_length;
+          const std::size_t row =
+              (static_cast<std::size_t>(c) * static_cast<std::size_t>(lattice.count[1]) + static_cast<std::size_t>(k)) *
+              row_length;
           for (int a = left; a < right; ++a) {
             const double dx = lattice.first[0] + a * lattice.step - x[i];
             const double q2 = (g(0, 0) * dx + cross) * dx + rest;

@@ -33,7 +33,7 @@ struct SampledVolume {
 };
 
 /// Bit for bit the same for every number of threads.
-SampledVolume sample_volume(const ParticleView& particles, std::span<const std::int32_t> body, const KernelShape& kernel,
-                            const Lattice3& lattice);
+SampledVolume sample_volume(const ParticleView& particles, std::span<const std::int32_t> body,
+                            const KernelShape& kernel, const Lattice3& lattice);
 
 }  // namespace ejecta

@@ -140,8 +140,7 @@ void conclude(const Simulation& sim, const Frames& frames, const Job& job, Outpu
     if (!figure.problem.empty()) spdlog::warn("{}: {}", figure.file.filename().string(), figure.problem);
   if (frames.images() > 0)
     outputs.write("movies", Outputs::Loss::until_next, [&] {
-      write_title_card(job.folder, heading(sim.scene),
-                       {"scene " + sim.scene.name, program_name()});
+      write_title_card(job.folder, heading(sim.scene), {"scene " + sim.scene.name, program_name()});
       for (const std::string& problem : make_movies(job.folder).problems) spdlog::warn("movie: {}", problem);
     });
   write("timers.csv", [&](const fs::path& file) { write_timers(file, wall_times(sim)); });
@@ -196,7 +195,7 @@ int run(const Job& job) {
   Frames& frames = *frames_of_solver;
   if (checkpoint) frames.resume(sim, *checkpoint);
   frames.observe(sim, false);  // tries the scripts
-  checkpoint.reset();  // as large as the state
+  checkpoint.reset();          // as large as the state
   const FragmentContext context = fragment_context(sim);
   Tables tables(job.scene, job.folder, frames, context, outputs, resume_at);
   Checkpoints checkpoints(job.folder, job.resolved, job.scene, frames, outputs, resume_at);
@@ -216,8 +215,8 @@ int run(const Job& job) {
   observers.push_back(&progress);  // a run that is paused makes none
   install_signals();
   for (const auto& package : sim.packages)
-    spdlog::info("{}: {} {}s in {}D, {} threads, {:.0f} bytes each", job.scene.name, package->elements(), package->element(),
-                 job.scene.dimension, max_threads(),
+    spdlog::info("{}: {} {}s in {}D, {} threads, {:.0f} bytes each", job.scene.name, package->elements(),
+                 package->element(), job.scene.dimension, max_threads(),
                  static_cast<double>(package->bytes()) / static_cast<double>(package->elements()));
   for (const auto& package : sim.packages) say(package->remarks_at_start());
   Ending ending;

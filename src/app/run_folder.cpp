@@ -34,13 +34,12 @@ const std::array written{
     Written{"lineouts", {"lineout_#.csv"}},
     Written{"images", {"data.csv", "*_#.png", ".room"}},
     Written{"figures",
-            {"compaction.*", "crush_curve.csv", "fragment_distribution.*", "fragment_histogram.*", "largest_fragment.*", "energy.*",
-             "probe_*.png", "probe_*.gp"}},
+            {"compaction.*", "crush_curve.csv", "fragment_distribution.*", "fragment_histogram.*", "largest_fragment.*",
+             "energy.*", "probe_*.png", "probe_*.gp"}},
     Written{"",
             {"resolved.toml", "run.log", "insitu.log", "history.csv", "timers.csv", "fragments.csv", "shock.csv",
-             "fragment_distribution.csv", "fragments_measured.csv", "largest_fragment.csv", "summary.json", "movie_*.mp4",
-             "montage.mp4", "title.png", "probe_*.csv", "control", "control.#",
-             "control.taken"}}};
+             "fragment_distribution.csv", "fragments_measured.csv", "largest_fragment.csv", "summary.json",
+             "movie_*.mp4", "montage.mp4", "title.png", "probe_*.csv", "control", "control.#", "control.taken"}}};
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -160,7 +159,8 @@ int remove_later_files(const fs::path& folder, const Clock& clock, const Scene& 
   std::vector<fs::path> files;
   for (const MonitorView& view : read_views(folder))
     for (const MonitorFrame& frame : view.frames)
-      if (frame.step > clock.step || (frame.step == clock.step && frame.reason == end_of_run)) files.push_back(folder / frame.file);
+      if (frame.step > clock.step || (frame.step == clock.step && frame.reason == end_of_run))
+        files.push_back(folder / frame.file);
   std::error_code none;
   for (const auto& [place, begin, now] :
        {std::tuple{"snapshots", "snapshot_", true}, {"lineouts", "lineout_", lineout_now}})

@@ -45,7 +45,8 @@ void check_sizes(const Solids& s) {
   expect(s.surface.places.size() == 3 * s.surface.rgb.size() && s.surface.normals.size() == s.surface.places.size(),
          "surface: expected three numbers, a normal and a colour a point");
   for (const std::int32_t corner : s.surface.triangles)
-    expect(corner >= 0 && static_cast<std::size_t>(corner) < s.surface.rgb.size(), "surface: a corner that is no point");
+    expect(corner >= 0 && static_cast<std::size_t>(corner) < s.surface.rgb.size(),
+           "surface: a corner that is no point");
   expect(s.surface.triangles.size() % 3 == 0, "surface: expected three corners a triangle");
   expect(s.plate.rgb.size() == static_cast<std::size_t>(s.plate.width) * static_cast<std::size_t>(s.plate.height),
          "plate: expected a colour a pixel");
@@ -69,31 +70,38 @@ void define(py::module_& m) {
              }
              return points;
            })
-      .def("colours", [](const ColourScale& scale, const Array<double>& values, std::uint32_t nothing) {
-        const std::vector<std::uint32_t> rgb = coloured(span_of(values), scale, nothing);
-        return Array<std::uint32_t>(std::vector<py::ssize_t>(values.shape(), values.shape() + values.ndim()), rgb.data());
-      }, py::arg("values"), py::arg("nothing") = 0xFFFFFFu);
+      .def(
+          "colours",
+          [](const ColourScale& scale, const Array<double>& values, std::uint32_t nothing) {
+            const std::vector<std::uint32_t> rgb = coloured(span_of(values), scale, nothing);
+            return Array<std::uint32_t>(std::vector<py::ssize_t>(values.shape(), values.shape() + values.ndim()),
+                                        rgb.data());
+          },
+          py::arg("values"), py::arg("nothing") = 0xFFFFFFu);
 
   py::class_<Layout>(m, "Layout")
-      .def(py::init([](int width, int height, int panes, std::array<double, 4> wanted, bool nothing_beyond, double key_width) {
+      .def(py::init([](int width, int height, int panes, std::array<double, 4> wanted, bool nothing_beyond,
+                       double key_width) {
              const Window window{{wanted[0], wanted[1]}, {wanted[2], wanted[3]}};
              return Layout(width, height, panes, window, nothing_beyond ? window : Layout::everywhere(), key_width);
            }),
            py::arg("width"), py::arg("height"), py::arg("panes"), py::arg("wanted"), py::arg("nothing_beyond") = false,
            py::arg("key_width") = 6.0)
-      .def_property_readonly("pane_size",
-                             [](const Layout& l) {
-                               return std::array{static_cast<int>(l.panes[0].width), static_cast<int>(l.panes[0].height)};
-                             })
+      .def_property_readonly(
+          "pane_size",
+          [](const Layout& l) {
+            return std::array{static_cast<int>(l.panes[0].width), static_cast<int>(l.panes[0].height)};
+          })
       .def_property_readonly("pixel", &Layout::pixel)
       .def_property_readonly("window", [](const Layout& l) {
         return std::array{l.window.low[0], l.window.low[1], l.window.high[0], l.window.high[1]};
       });
 
   py::class_<Sheet>(m, "Sheet")
-      .def(py::init([](const Layout& layout, const std::string& title, const std::string& subtitle, double time, double end) {
-        return Sheet(layout, {title, subtitle, time, end});
-      }))
+      .def(py::init(
+          [](const Layout& layout, const std::string& title, const std::string& subtitle, double time, double end) {
+            return Sheet(layout, {title, subtitle, time, end});
+          }))
       .def("put", [](Sheet& sheet, int pane, const Array<std::uint32_t>& rgb) { sheet.put(pane, raster_of(rgb)); })
       .def("title", &Sheet::title)
       .def("axes", &Sheet::axes)
@@ -119,17 +127,18 @@ void define(py::module_& m) {
 
   m.def(
       "draw_solids",
-      [](const Camera& camera, std::array<int, 2> size, bool flat, const Array<float>& places, const Array<float>& radii,
-         const Array<std::uint32_t>& rgb, const Array<float>& points, const Array<float>& normals,
-         const Array<std::uint32_t>& point_rgb, const Array<std::int32_t>& triangles, const Vec<3>& corner,
-         const Vec<3>& across, const Vec<3>& upwards, const Array<std::uint32_t>& plate) {
+      [](const Camera& camera, std::array<int, 2> size, bool flat, const Array<float>& places,
+         const Array<float>& radii, const Array<std::uint32_t>& rgb, const Array<float>& points,
+         const Array<float>& normals, const Array<std::uint32_t>& point_rgb, const Array<std::int32_t>& triangles,
+         const Vec<3>& corner, const Vec<3>& across, const Vec<3>& upwards, const Array<std::uint32_t>& plate) {
         Solids solids{{span_of(places), span_of(radii), span_of(rgb)},
                       {span_of(points), span_of(normals), span_of(point_rgb), span_of(triangles)},
                       {},
                       flat};
         if (plate.ndim() == 2)
-          solids.plate = {corner, across, upwards, static_cast<int>(plate.shape(1)), static_cast<int>(plate.shape(0)),
-                          span_of(plate)};
+          solids.plate = {
+              corner,        across, upwards, static_cast<int>(plate.shape(1)), static_cast<int>(plate.shape(0)),
+              span_of(plate)};
         check_sizes(solids);
         return array_of(draw_solids(solids, camera, size[0], size[1], 0xFFFFFFu));
       },

@@ -100,13 +100,14 @@ std::string frame_json(const PipelineSettings& s, std::span<const Channel> chann
   out << "{\"run_folder\":" << to_json(s.run_folder) << ",\"scene_title\":" << to_json(s.scene_title)
       << ",\"dimension\":" << s.dimension << ",\"image_size\":[" << s.image_width << ',' << s.image_height << ']'
       << ",\"view_center\":[" << to_json(s.view_center[0]) << ',' << to_json(s.view_center[1]) << ','
-      << to_json(s.view_center[2]) << "],\"view_width\":" << to_json(s.view_width) << ",\"view_height\":" << to_json(s.view_height)
-      << ",\"time_end\":" << to_json(s.time_end) << ",\"particle_radius\":" << to_json(s.particle_radius)
+      << to_json(s.view_center[2]) << "],\"view_width\":" << to_json(s.view_width)
+      << ",\"view_height\":" << to_json(s.view_height) << ",\"time_end\":" << to_json(s.time_end)
+      << ",\"particle_radius\":" << to_json(s.particle_radius)
       << ",\"radius_per_smoothing_length\":" << to_json(s.radius_per_smoothing_length)
       << ",\"nodes_per_h\":" << to_json(s.nodes_per_h) << ",\"kernel_support\":" << to_json(s.kernel_support)
       << ",\"fragment_target\":" << to_json(s.fragment_target) << ",\"prefixes\":" << json_list(si_prefixes)
-      << ",\"channels\":" << json_list(s.channels)
-      << ",\"slice_fields\":" << json_list(s.slice_fields) << ",\"bodies\":[";
+      << ",\"channels\":" << json_list(s.channels) << ",\"slice_fields\":" << json_list(s.slice_fields)
+      << ",\"bodies\":[";
   const char* between = "";
   for (const PipelineSettings::DrawnBody& body : s.bodies) {
     out << between << "{\"name\":" << to_json(body.name) << ",\"breaks\":" << (body.breaks ? "true" : "false") << '}';

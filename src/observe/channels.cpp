@@ -125,9 +125,8 @@ Channel FrameChannels<Dim>::ellipsoids(const Particles<Dim>& p, double plane_y, 
 }
 
 template <int Dim>
-Channel FrameChannels<Dim>::volume(const Particles<Dim>& p, Kernel kernel, const View& view, double spacing)
-  requires(Dim == 3)
-{
+Channel FrameChannels<Dim>::volume(const Particles<Dim>& p, Kernel kernel, const View& view,
+                                   double spacing) requires(Dim == 3) {
   volume_ = make_volume(p, kernel, view, spacing);
   return volume_.channel("volume");
 }

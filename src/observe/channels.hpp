@@ -16,7 +16,8 @@
 
 namespace ejecta {
 
-/// The slice in the plane y = plane_y [m] (in 2D that of the scene) as the channel of that name. Valid while `image` lives.
+/// The slice in the plane y = plane_y [m] (in 2D that of the scene) as the channel of that name. Valid while `image`
+/// lives.
 Channel slice_channel(const SampledImage& image, int dimension, double plane_y);
 
 /// Makes the channels of a frame, each on its own. They point into what they are made of and into this object, which
@@ -31,8 +32,7 @@ class FrameChannels {
   /// The smoothing ellipsoids of the layer about the plane y = plane_y [m].
   Channel ellipsoids(const Particles<Dim>& p, double plane_y, double nodes_per_h);
   /// How full space is behind the plane through the middle of the view.
-  Channel volume(const Particles<Dim>& p, Kernel kernel, const View& view, double spacing)
-    requires(Dim == 3);
+  Channel volume(const Particles<Dim>& p, Kernel kernel, const View& view, double spacing) requires(Dim == 3);
   /// A point a fragment; `target` is the body that target_mass is of.
   Channel fragments(const FragmentTable& table, std::size_t target);
 

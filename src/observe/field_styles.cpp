@@ -84,8 +84,8 @@ void add_strengths(Extremes& e, const Scene& scene, const std::vector<Material>&
   if (is_set(e.tension)) e.pressure = std::max(is_set(e.pressure) ? e.pressure : 0.0, 3 * e.tension);
 }
 
-/// Colours of pressure in solids follow its logarithm, both ways from zero, from what matter bears on, and from this part
-/// of the range at the latest.
+/// Colours of pressure follow its logarithm, both ways from zero, from what solids bear on, and from this part of the
+/// range at the latest: shocks and waves of all strengths are seen.
 constexpr double linear_part = 0.03;
 
 /// Away from zero to two digits: ends of a colour bar that nobody has given are round.
@@ -120,8 +120,9 @@ std::map<std::string, FieldStyle> field_styles(const Scene& scene, const Extreme
     style->second.range = range;
   }
   FieldStyle& pressure = styles.at("pressure");
-  if (pressure.range && is_set(expected.onset))
-    pressure.linear_to = std::min(expected.onset, linear_part * std::max(-pressure.range->min, pressure.range->max));
+  if (pressure.range)
+    pressure.linear_to = std::min(is_set(expected.onset) ? expected.onset : infinity,
+                                  linear_part * std::max(-pressure.range->min, pressure.range->max));
   return styles;
 }
 

@@ -16,7 +16,8 @@ namespace ejecta {
 struct Extremes {
   double pressure = unset, density = unset, speed = unset, distension = unset, aspect = unset, mach = unset;
   double tension = unset;  ///< that the strongest matter bears [Pa]; fluids bear none
-  double onset = unset;    ///< pressure or tension at which the weakest matter yields, cracks or begins to be crushed [Pa]
+  double onset =
+      unset;  ///< pressure or tension at which the weakest matter yields, cracks or begins to be crushed [Pa]
 };
 /// What particles lead one to expect that set out like this, of these materials. What solids bear follows from their
 /// moduli and strengths: the tension that opens the weakest flaw of a particle, else the yield stress, else a hundredth

@@ -47,7 +47,7 @@ constexpr int looks_per_frame = 10;
 constexpr int burst_density = 10;
 const std::string note = "insitu event: ";
 /// A slice is sampled no more finely than this: there is nothing to see between.
-constexpr double samples_per_spacing = 4;
+constexpr double samples_per_spacing = 3;
 /// Renderers say little, and in words of their own, where an image cannot be written. So it is tried before. Throws
 /// OutputError.
 void check_room(const std::filesystem::path& images) {

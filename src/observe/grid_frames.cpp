@@ -69,8 +69,8 @@ bool shows_damage(const Sph<Dim>* solids) {
   return solids && solids->particles.has(Field::damage);
 }
 
-/// With solids besides, and what a body of their speed does to gas at rest that it pushes: about a simple shock before a
-/// piston.
+/// With solids besides, and what a body of their speed does to gas at rest that it pushes: about a simple shock before
+/// a piston.
 template <int Dim>
 Extremes with_solids(Extremes e, const Scene& scene, const CellState<Dim>& gas, const Sph<Dim>& solids) {
   const Extremes theirs = extremes(scene, solids.materials, solids.outset);
@@ -100,7 +100,8 @@ PicturePlan plan_of(const Simulation& sim, const Grid<Dim>& grid) {
   const Sph<Dim>* solids = solids_of(find_package<Hybrid<Dim>>(sim));
   Extremes largest = expected(sim.scene, grid);
   if (solids) largest = with_solids(largest, sim.scene, grid.ambient(), *solids);
-  PicturePlan plan{view_of(sim.scene, grid), limits_of(grid.box()), {"density", "pressure"}, field_styles(sim.scene, largest)};
+  PicturePlan plan{
+      view_of(sim.scene, grid), limits_of(grid.box()), {"density", "pressure"}, field_styles(sim.scene, largest)};
   plan.slice_fields.emplace_back(shows_damage(solids) ? "damage" : "mach");
   return plan;
 }

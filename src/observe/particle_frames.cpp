@@ -12,7 +12,9 @@ namespace {
 
 template <int Dim>
 PicturePlan plan_of(const Sph<Dim>& sph) {
-  PicturePlan plan{choose_view(sph.scene), Layout::everywhere(), {},
+  PicturePlan plan{choose_view(sph.scene),
+                   Layout::everywhere(),
+                   {},
                    field_styles(sph.scene, extremes(sph.scene, sph.materials, sph.outset))};
   for (const Field f : slice_fields(sph.particles)) plan.slice_fields.emplace_back(info(f).name);
   return plan;
@@ -94,8 +96,8 @@ void ParticleFrames<Dim>::draw_more(Simulation& sim) {
   sim.timers.time("in situ: column density", [&] {
     const InSitu& insitu = sph_.scene.insitu;
     const Layout layout(insitu.image_width, insitu.image_height, 1, view_.window(Dim), limits_);
-    painter_.paint_column_density(make_column_density(sph_.particles, sph_.scene.numerics.kernel, layout.grid()), layout,
-                                  sph_.clock);
+    painter_.paint_column_density(make_column_density(sph_.particles, sph_.scene.numerics.kernel, layout.grid()),
+                                  layout, sph_.clock);
   });
 }
 

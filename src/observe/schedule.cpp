@@ -67,7 +67,8 @@ bool Trigger::take(const Moment& now) {
   }
   const std::int64_t before = passed_;
   const double reached = now.time * (1 + rounding);
-  if (is_set(every_.time) && reached >= start_) passed_ = std::max(passed_, static_cast<std::int64_t>((reached - start_) / every_.time) + 1);
+  if (is_set(every_.time) && reached >= start_)
+    passed_ = std::max(passed_, static_cast<std::int64_t>((reached - start_) / every_.time) + 1);
   while (time_of(passed_) <= reached) ++passed_;
   return passed_ > before;
 }

@@ -83,7 +83,7 @@ class Trigger {
   std::vector<double> times_;
   Every every_;
   std::string reason_;
-  double start_ = 0;  // s
+  double start_ = 0;         // s
   std::int64_t passed_ = 0;  ///< number of times that are past
   double next_wall_ = 0;     // s
   double time_of(std::int64_t k) const;
@@ -99,7 +99,7 @@ class FrameSchedule {
 
   double next() const;
   struct Due {
-    std::string reason;   ///< empty: there is no frame
+    std::string reason;      ///< empty: there is no frame
     bool always = false;     ///< whatever it costs
     bool scheduled = false;  ///< also where nobody stops the run or asks for a frame
   };
@@ -109,7 +109,8 @@ class FrameSchedule {
   void resume(const Moment& now);
   /// The end of this step is drawn, whatever its time.
   void ask() { asked_ = true; }
-  /// In place of insitu.frames or insitu.times a frame every `interval` from now on, the first so long after `time` [s].
+  /// In place of insitu.frames or insitu.times a frame every `interval` from now on, the first so long after `time`
+  /// [s].
   void change(double time, double interval);
   /// More frames, which are drawn at the first step after each of these times [s]: steps do not end there.
   void add(std::vector<double> times, std::string reason);

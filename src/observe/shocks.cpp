@@ -47,8 +47,12 @@ void Shocks::write_row(const Simulation& sim) {
 void Shocks::write_lineouts(const Simulation& sim) const {
   with_grid(sim, [&]<int Dim>(const Grid<Dim>& grid) {
     const Box<Dim>& box = grid.box();
-    const std::array<CsvColumn, 6> columns{{{"x", "m"}, {"density", "kg/m^3"}, {"velocity x", "m/s"}, {"pressure", "Pa"},
-                                            {"specific energy", "J/kg"}, {"mach", "1"}}};
+    const std::array<CsvColumn, 6> columns{{{"x", "m"},
+                                            {"density", "kg/m^3"},
+                                            {"velocity x", "m/s"},
+                                            {"pressure", "Pa"},
+                                            {"specific energy", "J/kg"},
+                                            {"mach", "1"}}};
     std::vector<std::vector<CsvCell>> rows;
     for (const std::size_t i : row_of_cells(grid, sim.scene)) {
       const CellState<Dim> s = grid.state(i);

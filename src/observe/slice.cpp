@@ -33,7 +33,7 @@ SampledImage make_slice(const Particles<Dim>& p, std::span<const Field> fields, 
 }
 
 SampledVolume make_volume(const Particles<3>& p, Kernel kernel, const View& view, double spacing) {
-  constexpr double steps_per_spacing = 1.5, most_points = 4e6;
+  constexpr double steps_per_spacing = 1.25, most_points = 4e6;
   const Window window = view.window(3);
   const std::array low{window.low[0], view.center[1], window.low[1]};
   const std::array high{window.high[0], view.center[1] + 0.5 * view.width, window.high[1]};

@@ -95,8 +95,8 @@ void Progress::observe(Simulation& sim, bool last) {
   const double rate = wall > 0 ? (element_steps(sim) - start_work_) / wall / 1e6 : 0;
   const std::string_view element = sim.packages.size() == 1 ? sim.packages[0]->element() : "element";
   const std::string where(sim.limited.body);
-  spdlog::info("step {:6d}  t {:>10} of {}  dt {:>9} by {}{}  {:.2f} M {}-steps/s  dE/E {:+.1e}{}",
-               sim.clock.step, format_quantity(sim.clock.time, "s"), format_quantity(sim.scene.time_end, "s"),
+  spdlog::info("step {:6d}  t {:>10} of {}  dt {:>9} by {}{}  {:.2f} M {}-steps/s  dE/E {:+.1e}{}", sim.clock.step,
+               format_quantity(sim.clock.time, "s"), format_quantity(sim.scene.time_end, "s"),
                format_quantity(sim.clock.dt, "s"), sim.vote.reason, where.empty() ? "" : " in " + where, rate, element,
                conservation_errors(initial(sim), conserved(sim), external(sim)).energy, eta);
   shown_ = now;

@@ -5,8 +5,8 @@
 #include <span>
 #include <string>
 
-#include "output/csv.hpp"
 #include "analysis/fragments.hpp"
+#include "output/csv.hpp"
 
 namespace ejecta {
 

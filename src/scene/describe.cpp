@@ -68,15 +68,18 @@ void describe(Describer& d, Charge& c) {
   d.number("energy_per_length", c.energy_per_length, "J/m", positive, "in 2D: of a cylinder, as internal energy");
   d.number("energy", c.energy, "J", positive, "in 3D: internal energy of the whole ball");
   d.text("material", c.material, "else that of the gas around it");
-  d.number("start", c.start, "s", non_negative,
-           "the run begins then, with what a solution in one dimension says; 0: with the charge itself; else, where there "
-           "is room, when the shock has come 16 spacings, at the latest at the first of output.times and after a tenth of the "
-           "run");
+  d.number(
+      "start", c.start, "s", non_negative,
+      "the run begins then, with what a solution in one dimension says; 0: with the charge itself; else, where there "
+      "is room, when the shock has come 16 spacings, at the latest at the first of output.times and after a tenth of "
+      "the "
+      "run");
 }
 
 void describe(Describer& d, Gas& g) {
   d.text("material", g.material, "name of materials/<material>.toml");
-  d.number("gamma", g.gamma, "1", {.min = 1, .open_min = true}, "ratio of specific heats, in place of the material's own");
+  d.number("gamma", g.gamma, "1", {.min = 1, .open_min = true},
+           "ratio of specific heats, in place of the material's own");
   d.number("density", g.density, "kg/m^3", positive, "at the start; else the material's own");
   d.number("pressure", g.pressure, "Pa", positive, "at the start").required = true;
 }
@@ -173,7 +176,8 @@ void describe(Describer& d, InSitu& i) {
   d.integer("image_width", i.image_width, between(64, 8192), "pixels");
   d.integer("image_height", i.image_height, between(64, 8192), "pixels");
   d.triple("view_center", i.view_center, "m", "middle of the images; else the centre of the bodies at rest");
-  d.number("view_size", i.view_size, "m", positive, "visible width at least; else 1.6 times the extent of the slowest body");
+  d.number("view_size", i.view_size, "m", positive,
+           "visible width at least; else 1.6 times the extent of the slowest body");
   d.number("view_height", i.view_height, "m", positive, "visible height at least; else view_size");
   d.map("ranges", i.ranges, "<field>", "field name = fixed colour range",
         [&](const std::string& field, ColourRange& r) {

@@ -142,9 +142,9 @@ struct InSitu {
   OnError on_error = OnError::warn;
   double max_share = 0.15;  ///< frames are left out where in-situ work would exceed this share of the wall time
   int image_width = 1920, image_height = 1080;
-  Triple view_center{unset, unset, unset};    ///< m; default: centre of the bodies at rest
-  double view_size = unset;                   ///< m; visible width at least; default: 1.6 times the extent of the slowest body
-  double view_height = unset;                 ///< m; visible height at least; default: view_size
+  Triple view_center{unset, unset, unset};  ///< m; default: centre of the bodies at rest
+  double view_size = unset;    ///< m; visible width at least; default: 1.6 times the extent of the slowest body
+  double view_height = unset;  ///< m; visible height at least; default: view_size
   std::map<std::string, ColourRange> ranges;  ///< field name -> fixed colour range in SI
 };
 

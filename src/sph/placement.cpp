@@ -103,8 +103,7 @@ std::vector<Placement<Dim>> place_bodies(const Scene& scene, const std::vector<M
     const auto report = [&](const std::string& text) {
       problems.push_back(fmt::format("{}: bodies.{}: {}", body.origin, body.name, text));
     };
-    auto placements =
-        fill_body<Dim>(scene, b, materials[static_cast<std::size_t>(body_material[b])], body_material[b]);
+    auto placements = fill_body<Dim>(scene, b, materials[static_cast<std::size_t>(body_material[b])], body_material[b]);
     if (body.name == Gas::name && body.implied)  // it yields to whatever is there
       std::erase_if(placements, [&](const Placement<Dim>& s) {
         return std::any_of(scene.bodies.begin(), scene.bodies.begin() + static_cast<std::ptrdiff_t>(b),

@@ -175,8 +175,8 @@ void lay_blast(Sph<Dim>& sph, const RadialState& blast, const std::vector<Placem
 template <int Dim>
 std::unique_ptr<Sph<Dim>> set_up(const Scene& scene, const std::vector<Material>& materials) {
   const auto blast = charge_start(scene, materials);
-  const auto placements = place_bodies<Dim>(blast ? with_charge_of(*blast, scene) : scene, materials,
-                                            number_materials(scene, materials));
+  const auto placements =
+      place_bodies<Dim>(blast ? with_charge_of(*blast, scene) : scene, materials, number_materials(scene, materials));
   return assemble<Dim>(scene, materials, choose_stages<Dim>(scene, materials), placements, [&](Sph<Dim>& sph) {
     apply_profiles(sph, placements);
     if (sph.particles.has(Field::lighting_time))

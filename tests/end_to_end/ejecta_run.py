@@ -24,7 +24,9 @@ largest_fragment_mass_fraction fragments bodies quantities state reason not_writ
 
 
 def settings(values):
-    """{"time.end": "1us"} as arguments of the command line."""
+    """{"time.end": "1us"} as arguments of the command line. Who says how many frames there are wants no others."""
+    if "insitu.frames" in values:
+        values = {"insitu.every": "[]", "insitu.events": "[]"} | values
     return [word for key, value in values.items() for word in ("--set", f"{key}={value}")]
 
 

@@ -7,8 +7,9 @@ from pathlib import Path
 from ejecta_run import IMPACT_3D, SUMMARY_KEYS, Table, colours, ejecta, movie_frames, pixels, resolved, settings, summary
 
 FRAMES = 4
-VALUES = {"resolution.spacing": "4mm", "time.end": "30us", "insitu.frames": FRAMES, "insitu.max_share": 1}
-VIEWS = ("cutaway", "fragments", "slice")
+VALUES = {"resolution.spacing": "4mm", "time.end": "30us", "insitu.frames": FRAMES, "insitu.max_share": 1,
+          "insitu.image_width": 960, "insitu.image_height": 720}
+VIEWS = ("cutaway", "fragments", "slice", "surface")
 
 
 class Impact(unittest.TestCase):
@@ -71,13 +72,15 @@ class Impact(unittest.TestCase):
             # The object may throw out dust at the top, but never reaches the sides.
             background = colours(rows[height // 2])[0]
             for x in (0, width - 1):
-                self.assertEqual({row[3 * x:3 * x + 3] for row in rows}, {background}, file)
+                below = rows[round(0.06 * height):]  # the band with the title
+                self.assertEqual({row[3 * x:3 * x + 3] for row in below}, {background}, file)
             middle = colours(rows[height // 2])
             self.assertGreater(sum(colour != background for colour in middle), width // 8, file)
 
     def test_colour_bars_never_change(self):
         # Where the bars with their numbers are: left, right, top, bottom in parts of the image.
-        for view, (left, right, top, bottom) in {"slice": (0, 1, 0.83, 1), "cutaway": (0.93, 1, 0.2, 0.85)}.items():
+        for view, (left, right, top, bottom) in {"slice": (0, 1, 0.83, 1), "cutaway": (0.93, 1, 0.2, 0.85),
+                                                     "surface": (0.93, 1, 0.2, 0.85)}.items():
             bars = set()
             for file in (self.out / "images").glob(view + "_*.png"):
                 width, height, rows = pixels(file)

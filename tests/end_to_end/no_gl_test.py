@@ -2,7 +2,8 @@
 import unittest
 from ejecta_run import IMPACT_2D, IMPACT_3D, RunTest, Table, colours, movie_frames, pixels, summary
 
-VALUES = {"resolution.spacing": "4mm", "time.end": "10us", "insitu.frames": 3, "insitu.max_share": 1}
+VALUES = {"resolution.spacing": "4mm", "time.end": "10us", "insitu.frames": 3, "insitu.max_share": 1,
+          "insitu.image_width": 960, "insitu.image_height": 720}
 # Mesa loads its software renderer by this name.
 NO_GL = {"GALLIUM_DRIVER": "no-such-driver"}
 

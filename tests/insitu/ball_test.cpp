@@ -41,15 +41,14 @@ class Ball : public testing::Test {
                                            "def catalyst_execute(info):\n"
                                            "    sys.exit(7)\n";
     // A writer of VTK that is given what it cannot write: no exception, only an error of VTK.
-    std::ofstream(folder + "/writes_nothing.py")
-        << "# script-version: 2.0\n"
-           "from paraview.simple import *\n"
-           "from paraview import catalyst\n"
-           "source = PVTrivialProducer(registrationName='particles')\n"
-           "out = CreateExtractor('VTPD', source, registrationName='VTPD1')\n"
-           "out.Trigger = 'TimeStep'\n"
-           "out.Writer.FileName = 'p_{timestep:06d}.vtpd'\n"
-           "options = catalyst.Options()\n";
+    std::ofstream(folder + "/writes_nothing.py") << "# script-version: 2.0\n"
+                                                    "from paraview.simple import *\n"
+                                                    "from paraview import catalyst\n"
+                                                    "source = PVTrivialProducer(registrationName='particles')\n"
+                                                    "out = CreateExtractor('VTPD', source, registrationName='VTPD1')\n"
+                                                    "out.Trigger = 'TimeStep'\n"
+                                                    "out.Writer.FileName = 'p_{timestep:06d}.vtpd'\n"
+                                                    "options = catalyst.Options()\n";
     std::vector<std::string> scripts = default_pipelines(scene_with(true));
     scripts.insert(scripts.begin(),
                    {folder + "/fails.py", folder + "/mine.py", folder + "/exits.py", folder + "/writes_nothing.py"});
@@ -61,8 +60,7 @@ class Ball : public testing::Test {
       if (bridge.reads(channel.c_str())) read.insert(channel);
     first = bridge.execute(0, 0, young.channels(), every_frame(bridge));
     second = bridge.execute(25, 30e-6, old.channels(), every_frame(bridge));
-    repeated =
-        bridge.execute(25, 30e-6, old.channels(), every_frame(bridge));
+    repeated = bridge.execute(25, 30e-6, old.channels(), every_frame(bridge));
     counts = bridge.counts();
   }
 

@@ -76,12 +76,14 @@ TEST(Pipelines, SettingsAreWrittenAsJson) {
   const std::string json = frame_json(s, std::span(&channel, 1));
   EXPECT_NE(json.find(R"("run_folder":"/a \"b\"\u000a")"), std::string::npos) << json;
   EXPECT_NE(json.find(R"("slice_fields":["pressure","sound_speed"])"), std::string::npos) << json;
-  EXPECT_NE(json.find(R"("pressure":{"unit":"Pa","label":"bulk pressure","range":[-1000000,250000000],"map":"cool_warm",)"
-                      R"("linear_to":1000000})"),
-            std::string::npos)
+  EXPECT_NE(
+      json.find(R"("pressure":{"unit":"Pa","label":"bulk pressure","range":[-1000000,250000000],"map":"cool_warm",)"
+                R"("linear_to":1000000})"),
+      std::string::npos)
       << json;
-  EXPECT_NE(json.find(R"("sound_speed":{"unit":"m/s","label":"sound speed","range":null,"map":"viridis","linear_to":0})"),
-            std::string::npos)
+  EXPECT_NE(
+      json.find(R"("sound_speed":{"unit":"m/s","label":"sound speed","range":null,"map":"viridis","linear_to":0})"),
+      std::string::npos)
       << json;
 }
 

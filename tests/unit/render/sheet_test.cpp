@@ -54,9 +54,7 @@ TEST(ColourScale, BeyondItsLinearPartItGivesEachDecadeTheSameRoom) {
   EXPECT_EQ(coloured(values, scale, 0x123456), (std::vector<std::uint32_t>{0x3B4CC0, 0xDDDDDD, 0x123456}));
 }
 
-double saturation(Colour c) {
-  return std::max({c.red, c.green, c.blue}) - std::min({c.red, c.green, c.blue});
-}
+double saturation(Colour c) { return std::max({c.red, c.green, c.blue}) - std::min({c.red, c.green, c.blue}); }
 
 TEST(RankColour, TheFirstFiveAreStrongAndDustIsFaint) {
   for (int rank = 1; rank <= 5; ++rank) EXPECT_GT(saturation(rank_colour(rank)), 0.5) << rank;
@@ -155,7 +153,8 @@ TEST_F(SheetTest, PaintsTheFieldTheRightWayUpAndLeavesVoidEmpty) {
   const PixelGrid grid = layout.grid();
   std::vector<double> field(static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height), std::nan(""));
   for (int j = grid.height / 2; j < grid.height; ++j)  // only the upper half holds matter, hot on the left
-    for (int i = 0; i < grid.width; ++i) field[static_cast<std::size_t>(j * grid.width + i)] = i < grid.width / 2 ? 1e9 : 0;
+    for (int i = 0; i < grid.width; ++i)
+      field[static_cast<std::size_t>(j * grid.width + i)] = i < grid.width / 2 ? 1e9 : 0;
   const std::vector<Panel> panels{{"pressure", "Pa", field, colour_scale(ColourMap::viridis, 0, 1e9)}};
   write_panels(file, layout, grid, panels, {"A test", "of it", 1e-6, 2e-6}, {"x", "z"});
   const Png png = read_png(file);

@@ -111,7 +111,8 @@ TEST(Solids, FlatOnesAreDiscsOfTheirOwnColour) {
 TEST(Solids, ThePictureDoesNotDependOnTheThreadsAndBearsWhatIsNoNumber) {
   Balls balls;
   for (int k = 0; k < 3000; ++k)
-    balls.add({std::sin(1.0 * k), std::sin(1.7 * k), std::sin(2.3 * k)}, 0.03, static_cast<std::uint32_t>(k * 1234567) & white);
+    balls.add({std::sin(1.0 * k), std::sin(1.7 * k), std::sin(2.3 * k)}, 0.03,
+              (static_cast<std::uint32_t>(k) * 1234567u) & white);
   balls.add({std::nan(""), 0, 0}, 0.1, red);
   balls.add({0, 0, std::nan("")}, 0.1, red);
   const int before = max_threads();
