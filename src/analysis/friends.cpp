@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "base/parallel.hpp"
 #include "particles/smoothing_metric.hpp"
 
 namespace ejecta {
@@ -193,7 +194,13 @@ void join_linked(const FragmentInput& in, const std::vector<std::uint32_t>& memb
 
   const HashedCells cells(in, members, cell_of);
   const int depth = in.dimension() == 3 ? 1 : 0;
-  for (const std::uint32_t i : members) {
+  struct Pair {
+    std::uint32_t i, j;
+    BoxShift moved;
+  };
+  constexpr std::size_t grain = 2048;  // members; who are friends is found by all threads, and joined by one
+  std::vector<std::vector<Pair>> pairs((members.size() + grain - 1) / grain);
+  const auto look_around = [&](std::uint32_t i, std::vector<Pair>& found) {
     const int piece = in.piece(i);
     for (auto level = std::lower_bound(levels.begin(), levels.end(), cell_of[i].level); level != levels.end();
          ++level) {
@@ -205,11 +212,17 @@ void join_linked(const FragmentInput& in, const std::vector<std::uint32_t>& memb
               for (const HashedCells::Entry& other :
                    cells.at({*level, {home.index[0] + dx, home.index[1] + dy, home.index[2] + dz}})) {
                 if (other.index <= i && *level == cell_of[i].level) continue;  // seen from the other
-                if (other.piece == piece && linked(i, other.index, other.place - x)) sets.join(i, other.index, moved);
+                if (other.piece == piece && linked(i, other.index, other.place - x))
+                  found.push_back({i, other.index, moved});
               }
       });
     }
-  }
+  };
+  parallel_blocks(members.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) look_around(members[k], pairs[begin / grain]);
+  });
+  for (const std::vector<Pair>& found : pairs)
+    for (const Pair& pair : found) sets.join(pair.i, pair.j, pair.moved);
 }
 
 }  // namespace
