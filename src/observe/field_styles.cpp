@@ -31,7 +31,7 @@ const Row table[] = {
      }},
     {"density", "density", viridis,
      [](const Extremes& e) -> ColourRange {
-       return {0, e.density};
+       return {e.least_density, e.density};
      }},
     {"velocity", "velocity", viridis,
      [](const Extremes& e) -> ColourRange {
@@ -104,6 +104,7 @@ Extremes extremes(const Scene& scene, const std::vector<Material>& materials, co
   const double speed = outset.speed > 0 ? outset.speed : std::sqrt(outset.pressure / outset.density);
   Extremes e{outset.pressure, outset.density, speed, distension, std::clamp(scene.numerics.largest_aspect, 1.5, 4.0)};
   add_strengths(e, scene, materials);
+  if (!materials.empty() && std::ranges::all_of(materials, &Material::solid)) e.least_density = 0.5 * e.density;
   return e;
 }
 

@@ -15,6 +15,7 @@ namespace ejecta {
 /// Largest values to be expected in a run [SI]; `unset` where nothing is known.
 struct Extremes {
   double pressure = unset, density = unset, speed = unset, distension = unset, aspect = unset, mach = unset;
+  double least_density = 0;
   double tension = unset;  ///< that the strongest matter bears [Pa]; fluids bear none
   double onset =
       unset;  ///< pressure or tension at which the weakest matter yields, cracks or begins to be crushed [Pa]
