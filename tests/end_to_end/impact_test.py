@@ -8,7 +8,7 @@ from ejecta_run import IMPACT_3D, SUMMARY_KEYS, Table, colours, ejecta, movie_fr
 
 FRAMES = 4
 VALUES = {"resolution.spacing": "4mm", "time.end": "30us", "insitu.frames": FRAMES, "insitu.max_share": 1,
-          "insitu.image_width": 960, "insitu.image_height": 720}
+          "insitu.pipelines": "[]", "insitu.image_width": 960, "insitu.image_height": 720}
 VIEWS = ("cutaway", "fragments", "slice", "surface")
 
 
