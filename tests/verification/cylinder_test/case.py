@@ -31,7 +31,7 @@ class Cylinder(Case):
         self.wall = wall
         self.name = f"cylinder_{wall:.2f}mm".replace(".", "_")
         self.title = f"tube of copper, wall of {wall} mm, filled with PBX 9501"
-        self.quick, self.full = ((4,), (4, 6)) if wall < 5 else ((8,), (4, 6, 8))
+        self.quick, self.full = ((4,), (4, 6)) if wall < 5 else ((8,), (6, 8))
 
     @property
     def scene_file(self):
