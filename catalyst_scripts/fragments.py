@@ -1,5 +1,6 @@
 # script-version: 2.0
-"""The particles coloured by the rank of their fragment: the heaviest are strong, what follows pales, dust is faint."""
+"""The particles coloured by the rank of their fragment: the heaviest of the target are strong, what follows pales, dust
+is faint. Fragments of other bodies have the pale colour of their body."""
 import ejecta_paint
 import numpy
 from paraview import catalyst
@@ -17,19 +18,20 @@ DUST_SIZE = 0.35  # of a whole particle
 
 
 def ranks():
-    """Rank of each fragment by its number, 0 for dust, and their masses, largest first."""
+    """Rank of each fragment by its number and the target's mass in it, largest first; 0: dust, or nothing of the target."""
     if not ejecta.has_data(pieces):
         return numpy.zeros(1, int), numpy.zeros(0)
-    mass, number = ejecta.column(pieces, "mass"), ejecta.column(pieces, "number").astype(int)
+    mass, number = ejecta.column(pieces, "target_mass"), ejecta.column(pieces, "number").astype(int)
     order = numpy.lexsort((number, -mass))  # of equal masses the older one first
+    order = order[mass[order] > 0]
     rank = numpy.zeros(number.max() + 1, int)
     rank[number[order]] = 1 + numpy.arange(len(order))
     return rank, mass[order]
 
 
-def entries(mass, colours):
+def entries(mass, total, colours):
+    """Lines of the legend: masses of the target's fragments, and their shares of all the target's mass."""
     unit = ejecta.style("mass")["unit"]
-    total = ejecta.column(source, "mass").sum()
     words = []
     for rank, m in enumerate(mass[:NAMED], 1):
         amount = f"{1e3 * m:.3g} g" if unit == "kg" else f"{m:.3g} {unit}"
@@ -40,6 +42,11 @@ def entries(mass, colours):
     return words
 
 
+def pale(colour):
+    """Half way to white."""
+    return sum((((colour >> shift) & 255) + 255) // 2 << shift for shift in (0, 8, 16))
+
+
 def catalyst_execute(info):
     global view
     if not ejecta.has_data(source) or ejecta.NUMBER not in ejecta.fields(source):
@@ -48,15 +55,23 @@ def catalyst_execute(info):
     if view is None:
         view = ejecta.View("fragments", "fragments by mass", key_width=15).look_at_scene()
     rank, mass = ranks()
-    colours = numpy.array([ejecta_paint.rank_colour(r) for r in range(PALE)], numpy.uint32)
+    names = [b["name"] for b in s["bodies"]]
+    body, target = ejecta.column(source, "body").astype(int), names.index(s["fragment_target"])
+    of_bodies = [pale(ejecta_paint.body_colour(b)) for b in range(len(names))]
+    colours = numpy.array([ejecta_paint.rank_colour(r) for r in range(PALE)] + of_bodies, numpy.uint32)
     number = ejecta.column(source, ejecta.NUMBER)
     own = numpy.where(number < len(rank), rank[numpy.minimum(number, len(rank) - 1)], 0)
     own[own >= PALE] = NAMED + 1 + own[own >= PALE] % (PALE - NAMED - 1)
+    dust = number == 0
+    others = (own == 0) & ~dust
+    own[others] = PALE + body[others]
     keep = slice(None)
     if s["dimension"] == 3:  # dust before the middle would hide everything
-        keep = (own != 0) | (ejecta.column(source, "position_y") >= s["view_center"][1])
+        keep = ~dust | (ejecta.column(source, "position_y") >= s["view_center"][1])
     radii = ejecta.radii_of(source)
-    radii[own == 0] *= DUST_SIZE
+    radii[dust] *= DUST_SIZE
     view.balls(ejecta.places_of(source)[keep], radii[keep], colours[own[keep]])
-    view.legend("fragments, largest first", entries(mass, colours))
+    lines = entries(mass, ejecta.column(source, "mass")[body == target].sum(), colours)
+    lines += [(of_bodies[b], names[b]) for b in numpy.unique(body[others])]
+    view.legend(f"fragments of {names[target]}", lines)
     view.save(info)
