@@ -109,9 +109,11 @@ void PairLists<Dim>::set_point(std::size_t place, const Particles<Dim>& owner, s
   const Axes axes = axes_of<Dim>(G);
   for (int k = 0; k < symmetric_size<Dim>; ++k)
     points_(metric + k, place) = owner.column(Field::smoothing_metric, k)[i] / (stretch * stretch);
-  for (int a = 0; a < Dim; ++a) points_(extent + a, place) = settings.support * stretch * std::sqrt(inverse(a, a));
   points_(per_length, place) = 1 / (stretch * axes.shortest);
-  points_(support, place) = settings.support * stretch * axes.longest;
+  // The whole ellipsoid may grow by as much as takes its shortest axis over the margin (slack()): its longest by more.
+  const double wide = stretch * (settings.support + points_(margin, place) * points_(per_length, place));
+  for (int a = 0; a < Dim; ++a) points_(extent + a, place) = wide * std::sqrt(inverse(a, a));
+  points_(support, place) = wide * axes.longest;
 }
 
 template <int Dim>

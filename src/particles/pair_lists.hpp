@@ -68,7 +68,7 @@ class PairLists {
     simd::Doubles lanes(int column, std::size_t first) const;
     std::size_t bytes() const;
   };
-  /// Columns of a point. Lengths are in m.
+  /// Columns of a point. Lengths are in m; with smoothing tensors support and extent are as wide as they may become.
   static constexpr int x = 0, support = Dim, margin = support + 1, columns_of_all = margin + 1;
   static constexpr int metric = columns_of_all;                ///< G = H H [1/m^2], with smoothing tensors
   static constexpr int extent = metric + symmetric_size<Dim>;  ///< half of the bounding box of the support

@@ -103,6 +103,7 @@ struct ShatteredBall {
     s.run_folder = run_folder;
     s.channels = {"particles", "slice", "ellipsoids", "volume", "fragments"};
     s.bodies = {{"ball", true}};
+    s.fragment_target = "ball";
     s.image_width = 960;
     s.image_height = 720;
     s.scene_title = "Shattered ball";

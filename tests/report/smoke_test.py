@@ -51,7 +51,7 @@ def check_survival(options, out):
                     options.survival_program, "--out", str(out), "--survival", "quick"], check=True)
     rows = table(out / "survival.csv")
     failed = sum(row["outcome"] != "survived" for row in rows)
-    assert len(rows) == 46, f"{len(rows)} runs"
+    assert len(rows) == 48, f"{len(rows)} runs"
     assert f"{len(rows)} impacts, {failed} not survived" in (out / "survival.md").read_text()
     scene = subprocess.run([options.survival_program, "--scene", name(rows[0])], capture_output=True, text=True,
                            check=True).stdout

@@ -141,6 +141,31 @@ TEST(EllipsoidLists, MissNobodyThatEitherEllipsoidReachesWhileTheyAreValid) {
   }
 }
 
+/// An ellipsoid that grows as a whole grows most along its longest axis.
+template <int Dim>
+void expect_growth_is_seen(double aspect) {
+  auto p = random_cloud<Dim>(1500, 12, 0.05, 0.05, {Field::smoothing_length, Field::smoothing_metric});
+  Vec<Dim> axes = Vec<Dim>::Constant(0.02);
+  axes[0] *= aspect;
+  for (std::size_t i = 0; i < p.size(); ++i)
+    p.set_symmetric(Field::smoothing_metric, i, axes.cwiseAbs2().cwiseInverse().asDiagonal().toDenseMatrix());
+  sort_in_space(p, 8);
+  PairLists<Dim> lists;
+  lists.build(p, {2, 8, 0, {}});
+  int steps = 0;
+  for (; lists.valid(p, 0); ++steps) {
+    EXPECT_EQ(missed_neighbours(p, lists, {}, 2), 0u) << "after " << steps << " steps";
+    for (std::size_t i = 0; i < p.size(); ++i)
+      p.set_symmetric(Field::smoothing_metric, i, 0.998 * p.symmetric(Field::smoothing_metric, i));
+  }
+  EXPECT_GT(steps, 10);
+}
+
+TEST(EllipsoidLists, MissNobodyWhileLongEllipsoidsGrow) {
+  expect_growth_is_seen<2>(10);
+  expect_growth_is_seen<3>(10);
+}
+
 TEST(EllipsoidLists, AreShorterThanThoseOfTheSpheresAround) {
   auto p = random_cloud<3>(3000, 11, 0.05, 0.05, {Field::smoothing_length, Field::smoothing_metric});
   for (std::size_t i = 0; i < p.size(); ++i)
