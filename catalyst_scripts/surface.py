@@ -51,14 +51,21 @@ def outside(palette):
     return points, normals, palette[numpy.maximum(body, 0)], triangles
 
 
-def face(field):
-    """The slice as a picture in space."""
+def face(field, palette):
+    """The slice as a picture in space; bodies that do not break have no damage, but their colour."""
     data = ejecta.data_of(slice_channel)
     columns, _, rows = data.GetDimensions()
     values = ejecta.column(slice_channel, field).reshape(rows, columns)
     rgb = ejecta.colour_scale(field, slice_channel).colours(values, ejecta_paint.NOTHING)
-    step = data.GetSpacing()
-    return dict(plate=rgb, corner=data.GetOrigin(), across=(step[0], 0, 0), upwards=(0, 0, step[2]))
+    step, corner = data.GetSpacing(), data.GetOrigin()
+    if field == "damage":
+        across, upwards = numpy.meshgrid(corner[0] + step[0] * numpy.arange(columns), corner[2] + step[2] * numpy.arange(rows))
+        places = numpy.stack([across.ravel(), numpy.full(across.size, corner[1]), upwards.ravel()], axis=1)
+        body = ejecta.column(volume, "body")[nearest_points(places)[0]].astype(int).reshape(rows, columns)
+        breaks = numpy.array([b["breaks"] for b in ejecta.settings()["bodies"]])
+        whole = (body >= 0) & ~breaks[body] & numpy.isfinite(values)
+        rgb = numpy.where(whole, palette[body], rgb)
+    return dict(plate=rgb, corner=corner, across=(step[0], 0, 0), upwards=(0, 0, step[2]))
 
 
 def catalyst_execute(info):
@@ -76,6 +83,6 @@ def catalyst_execute(info):
     view.balls(places[lone], SPRAY * ejecta.radii_of(source)[lone], palette[ejecta.column(source, "body")[lone]])
     mesh = outside(palette)
     if mesh is not None:
-        view.surface(*mesh, **face(field))
+        view.surface(*mesh, **face(field, palette))
     view.colour_bar(field, slice_channel)
     view.save(info)
