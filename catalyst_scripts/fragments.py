@@ -1,6 +1,6 @@
 # script-version: 2.0
 """The particles coloured by the rank of their fragment: the heaviest of the target are strong, what follows pales, dust
-is faint. Fragments of other bodies have the pale colour of their body."""
+is faint. Other bodies have a pale colour each."""
 import ejecta_paint
 import numpy
 from paraview import catalyst
@@ -63,7 +63,7 @@ def catalyst_execute(info):
     own = numpy.where(number < len(rank), rank[numpy.minimum(number, len(rank) - 1)], 0)
     own[own >= PALE] = NAMED + 1 + own[own >= PALE] % (PALE - NAMED - 1)
     dust = number == 0
-    others = (own == 0) & ~dust
+    others = (own == 0) & (body != target)
     own[others] = PALE + body[others]
     keep = slice(None)
     if s["dimension"] == 3:  # dust before the middle would hide everything
