@@ -11,7 +11,7 @@ from ejecta_run import IMPACT_2D, PROGRAM, RunTest, Table, settings, summary
 COARSE = {"resolution.spacing": "4mm", "time.max_steps": 30, "insitu.enabled": "false", "run.threads": 1,
           "output.history_interval": "1ns"}
 # Long enough to be disturbed in the middle.
-DRAWN = {"resolution.spacing": "2mm", "time.end": "200us", "insitu.frames": 41, "insitu.max_share": 1, "run.threads": 1,
+DRAWN = {"resolution.spacing": "2mm", "time.end": "120us", "insitu.frames": 13, "insitu.max_share": 1, "run.threads": 1,
          "insitu.image_width": 320, "insitu.image_height": 240}
 
 
@@ -82,7 +82,8 @@ class OutputFailure(RunTest):
         for name in ("monitor", "images", "checkpoints", "."):
             with self.subTest(name):
                 out = self.folder / f"run_{name.strip('.')}"
-                run = self.start(out, {**DRAWN, "output.checkpoint_interval": "1s"})
+                run = self.start(out, {**DRAWN, "time.end": "200us", "insitu.frames": 41,
+                                       "output.checkpoint_interval": "1s"})
                 self.wait_for(run, lambda: len(list(out.glob("images/slice*.png"))) > 2 and (out / name).exists())
                 shutil.rmtree(out / name, ignore_errors=True)
                 _, log = run.communicate(timeout=120)
