@@ -7,6 +7,7 @@
 #include "insitu/gl_probe.hpp"
 #include "insitu/pipelines.hpp"
 #include "model/package_kind.hpp"
+#include "observe/measured.hpp"
 #include "scene/scene_reader.hpp"
 
 namespace ejecta {
@@ -33,6 +34,7 @@ Job read_input(const std::string& scene_file, const std::vector<std::string>& ov
 Job read_job(const std::string& scene_file, const std::vector<std::string>& overrides) {
   Job job = read_input(scene_file, overrides);
   check_memory(job.scene, job.materials.list);
+  if (const std::string& caught = job.scene.fragments.measured; !caught.empty()) measured_masses(caught);
   set_threads(job.scene.threads.value_or(available_cores()));
   const InSitu& insitu = job.scene.insitu;
   if (!insitu.enabled) return job;

@@ -102,6 +102,18 @@ std::string last_words(const Simulation& sim, const Job& job, const Summary& s, 
                             job.folder.string());
 }
 
+/// How far each probe is from what was measured.
+void say_misfits(const Scene& scene, const fs::path& folder) {
+  for (const Probe& probe : scene.probes) {
+    const fs::path computed = folder / fmt::format("probe_{}.csv", probe.name);
+    const fs::path measured = folder / fmt::format("probe_{}_measured.csv", probe.name);
+    if (!fs::exists(computed) || !fs::exists(measured)) continue;
+    for (const Misfit& m : compare_traces(computed, measured, probe.measured_delay))
+      spdlog::info("probe {}: {} is {} (rms; mean {}) off the {} points that were measured", probe.name, m.column.name,
+                   format_quantity(m.rms, m.column.unit), format_quantity(m.mean, m.column.unit), m.points);
+  }
+}
+
 /// Everything that is written once, when the run is over for whatever reason.
 void conclude(const Simulation& sim, const Frames& frames, const Job& job, Outputs& outputs, Status& status,
               Ending& ending) {
@@ -136,6 +148,7 @@ void conclude(const Simulation& sim, const Frames& frames, const Job& job, Outpu
   if (!context.bodies.empty()) figures.fragment_target = context.bodies[context.target];
   figures.resolution_limit = context.smallest;
   for (const Probe& probe : sim.scene.probes) figures.probes.push_back({probe.name, probe.measured_delay});
+  say_misfits(sim.scene, job.folder);
   for (const Figure& figure : make_figures(job.folder, figures))
     if (!figure.problem.empty()) spdlog::warn("{}: {}", figure.file.filename().string(), figure.problem);
   if (frames.images() > 0)
@@ -176,7 +189,6 @@ int run(const Job& job) {
   Simulation sim = set_up_simulation(job.scene, job.materials.list);
   if (checkpoint) restore(sim, *checkpoint);
   const std::vector<std::string> odd_probes = place_probes(sim);
-  if (!job.scene.fragments.measured.empty()) measured_masses(job.scene.fragments.measured);  // or say what is wrong now
   prepare_folder(job);
   for (const std::string& odd : odd_probes) spdlog::warn("{}", odd);
   if (!lock.left_by().empty()) spdlog::info("{} was killed here before", lock.left_by());

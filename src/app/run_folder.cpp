@@ -1,5 +1,7 @@
 #include "app/run_folder.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdlib>
@@ -35,11 +37,11 @@ const std::array written{
     Written{"images", {"data.csv", "*_#.png", ".room"}},
     Written{"figures",
             {"compaction.*", "crush_curve.csv", "fragment_distribution.*", "fragment_histogram.*", "largest_fragment.*",
-             "energy.*", "probe_*.png", "probe_*.gp"}},
+             "energy.*"}},
     Written{"",
             {"resolved.toml", "run.log", "insitu.log", "history.csv", "timers.csv", "fragments.csv", "shock.csv",
              "fragment_distribution.csv", "fragments_measured.csv", "largest_fragment.csv", "summary.json",
-             "movie_*.mp4", "montage.mp4", "title.png", "probe_*.csv", "control", "control.#", "control.taken"}}};
+             "movie_*.mp4", "montage.mp4", "title.png", "control", "control.#", "control.taken"}}};
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -73,6 +75,23 @@ std::vector<fs::path> extracts_of(const fs::path& images) {
   for (const std::vector<std::string>& row : table.rows)
     if (holds(images, images / row[name])) files.push_back(images / row[name]);
   return files;
+}
+
+/// Tables and figures of the probes that the run had: a user may have files of such names too.
+std::vector<fs::path> files_of_probes(const fs::path& folder) try {
+  std::vector<fs::path> files;
+  if (!fs::is_regular_file(folder / "resolved.toml")) return files;
+  const Document scene = read_document((folder / "resolved.toml").string());
+  for (std::size_t k = 0; k < scene.count("probes"); ++k) {
+    const auto item = scene.items.find(element_path("probes", k) + ".name");
+    const auto* name = item == scene.items.end() ? nullptr : std::get_if<std::string>(&item->second.literal.value);
+    if (!name || name->find('/') != std::string::npos) continue;
+    for (const char* pattern : {"probe_{}.csv", "probe_{}_measured.csv", "figures/probe_{}.png", "figures/probe_{}.gp"})
+      files.push_back(folder / fmt::format(fmt::runtime(pattern), *name));
+  }
+  return files;
+} catch (const InputError&) {  // somebody has edited it: those files stay
+  return {};
 }
 
 bool holds_a_run(const fs::path& folder) {
@@ -135,6 +154,7 @@ void check_run_folder(const RunOptions& options, const fs::path& folder) {
 
 void clear_run_folder(const fs::path& folder) {
   if (!fs::exists(folder)) return;
+  for (const fs::path& file : files_of_probes(folder)) fs::remove(file);
   for (const Written& place : written) {
     const fs::path inside = folder / place.folder;
     if (!fs::is_directory(inside)) continue;

@@ -115,7 +115,30 @@ class Probes(RunTest):
         history = Table(out / "history.csv")
         self.assertAlmostEqual(history.numbers("probe beam velocity")[-1], RATE * 9.5e-3 + SPEED, delta=1e-6)
         self.assertTrue((out / "figures" / "probe_rider.png").is_file())
+        mine = out / "probe_notes.csv"
+        mine.write_text("mine")
+        self.run_scene(self.scene("stretch.toml", STRETCH.replace('"rider"', '"tracer"')), "run", {}, "--overwrite")
+        self.assertTrue(mine.is_file())
+        self.assertFalse((out / "probe_rider.csv").exists())
         self.assertIn("probes.outside.at: the point sees nothing at t = 0 s: the nearest particle 40", (out / "run.log").read_text())
+
+    def test_what_was_measured_is_compared(self):
+        # Two points within the run, one beyond its end; the beam sees 290 m/s throughout.
+        (self.folder / "trace.csv").write_text("time [s],velocity [m/s]\n1e-6,280\n3e-6,310\n20e-6,0\n")
+        (self.folder / "masses.csv").write_text("mass [kg]\n0.1\nheavy\n")
+        scene = self.scene("stretch.toml", STRETCH)
+        out = self.run_scene(scene, "run", {"probes.beam.measured": "trace.csv", "probes.beam.measured_delay": "1us"})
+        self.assertIn("probe beam: velocity is 15.81 m/s (rms; mean -5 m/s) off the 2 points", (out / "run.log").read_text())
+        for command in ("check", "run"):
+            arguments = ["--out", self.folder / "refused"] if command == "run" else []
+            done = ejecta(command, scene, *arguments, "--set", "probes.beam.measured=masses.csv")
+            self.assertEqual(done.returncode, 2)
+            self.assertIn("masses.csv:1: expected a column time [s], got mass [kg]", done.stderr)
+            three = SOURCE / "inputs" / "gasgun_tube.toml"
+            done = ejecta(command, three, *arguments, "--set", f"fragments.measured={self.folder / 'masses.csv'}",
+                          "--set", "resolution.spacing=4mm")
+            self.assertEqual(done.returncode, 2)
+            self.assertIn('masses.csv:3: mass: expected a number > 0, got "heavy"', done.stderr)
 
     def test_a_restart_reads_the_same(self):
         scene = self.scene("stretch.toml", STRETCH)
