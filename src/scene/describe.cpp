@@ -68,12 +68,10 @@ void describe(Describer& d, Charge& c) {
   d.number("energy_per_length", c.energy_per_length, "J/m", positive, "in 2D: of a cylinder, as internal energy");
   d.number("energy", c.energy, "J", positive, "in 3D: internal energy of the whole ball");
   d.text("material", c.material, "else that of the gas around it");
-  d.number(
-      "start", c.start, "s", non_negative,
-      "the run begins then, with what a solution in one dimension says; 0: with the charge itself; else, where there "
-      "is room, when the shock has come 16 spacings, at the latest at the first of output.times and after a tenth of "
-      "the "
-      "run");
+  d.number("start", c.start, "s", non_negative,
+           "the run begins then, with what a solution in one dimension says; 0: with the charge itself; else, where "
+           "there is room, when the shock has come 16 spacings, at the latest at the first of output.times and after a "
+           "tenth of the run");
 }
 
 void describe(Describer& d, Gas& g) {
@@ -200,7 +198,8 @@ void describe(Describer& d, Probe& p) {
            "of the beam of a velocimeter, whose velocity counts towards its beginning; of the others adds the velocity "
            "along it, of a tracer also the strain");
   d.number("spot", p.spot, "m", positive, "velocimeter: radius of the beam; else resolution.spacing");
-  d.number("range", p.range, "m", positive, "velocimeter: how far the beam sees, such as the axis of a tube; else without end");
+  d.number("range", p.range, "m", positive,
+           "velocimeter: how far the beam sees, such as to the axis of a tube; else without end");
   d.number("window", p.window, "s", non_negative, "values are means over so long before each row; 0: of that moment");
   d.number("interval", p.interval, "s", positive,
            "between rows, each at the first step from then on; else output.history_interval");
