@@ -38,7 +38,8 @@ CheckpointView checkpoint_view(const Simulation& sim, const std::string& resolve
   view.dt = sim.clock.dt;
   view.step = sim.clock.step;
   view.scene = resolved;
-  view.scalars = {{"wall_seconds", sim.wall_seconds}, {"insitu_seconds", sim.insitu_seconds}};
+  view.scalars = {{"wall_seconds", sim.wall_seconds}, {"insitu_seconds", sim.insitu_seconds},
+                  {"time_before", sim.clock.before}};
   for (const auto& [name, value] : sim.notes) view.scalars[note + name] = value;
   for (const auto& package : sim.packages) save(*package, view);
   return view;
@@ -71,10 +72,13 @@ void check_same_scene(const Checkpoint& checkpoint, const std::string& resolved,
 }
 
 void restore(Simulation& sim, const Checkpoint& checkpoint) {
-  sim.clock = {checkpoint.time, checkpoint.dt, checkpoint.step};
+  const auto scalar = [&](const char* name, double in_earlier_versions) {
+    return checkpoint.scalars.contains(name) ? checkpoint.scalar(name) : in_earlier_versions;
+  };
+  sim.clock = {checkpoint.time, checkpoint.dt, checkpoint.step,
+               scalar("time_before", checkpoint.time - checkpoint.dt)};
   sim.wall_seconds = checkpoint.scalar("wall_seconds");
-  if (checkpoint.scalars.contains("insitu_seconds"))  // not in checkpoints of earlier versions
-    sim.insitu_seconds = checkpoint.scalar("insitu_seconds");
+  sim.insitu_seconds = scalar("insitu_seconds", sim.insitu_seconds);
   for (const auto& [name, value] : checkpoint.scalars)
     if (name.starts_with(note)) sim.notes[name.substr(note.size())] = value;
   for (const auto& package : sim.packages) load(*package, checkpoint);
@@ -118,15 +122,16 @@ bool Checkpoints::pass_snapshots(double time) {
 }
 
 void Checkpoints::observe(Simulation& sim, bool last) {
-  const double waited = std::chrono::duration<double>(WallClock::now() - written_).count();
-  const bool by_wall = is_set(sim.scene.output.checkpoint_interval) && waited > wait_;
-  if (by_wall || sim.clock.time >= next_ || asked_ || last) write(sim);
+  // Before a checkpoint, so that a run killed between the two makes the snapshot when it is restarted.
   if (pass_snapshots(sim.clock.time))
     sim.timers.time("snapshots", [&] {
       outputs_.write("snapshots", Outputs::Loss::for_good, [&] {
         write_checkpoint(folder_ / fmt::format("snapshots/snapshot_{:06d}.h5", sim.clock.step), view(sim));
       });
     });
+  const double waited = std::chrono::duration<double>(WallClock::now() - written_).count();
+  const bool by_wall = is_set(sim.scene.output.checkpoint_interval) && waited > wait_;
+  if (by_wall || sim.clock.time >= next_ || asked_ || last) write(sim);
 }
 
 void Checkpoints::write(Simulation& sim) {

@@ -32,10 +32,9 @@ std::vector<double> frame_times(const Scene& scene) {
 RowTimes::RowTimes(double interval, const std::vector<double>& times, const std::optional<Clock>& resume_at)
     : interval_(interval), times_(times) {
   if (!resume_at) return;
-  const auto [time, dt, step] = *resume_at;
-  pass(time - dt * (1 - 1e-9));
-  const bool due = pass(time) || step == 0;
-  kept_until_ = due ? time : std::nextafter(time, 0);
+  pass(resume_at->before);
+  const bool due = pass(resume_at->time) || resume_at->step == 0;
+  kept_until_ = due ? resume_at->time : std::nextafter(resume_at->time, 0);
 }
 
 bool RowTimes::pass(double time) {

@@ -59,6 +59,7 @@ Winner step_together(Packages packages, Clock& clock, StageTimers& timers, const
         winner.vote.culprit == Vote::nobody ? "nobody in particular" : winner.voter->describe(winner.vote.culprit)));
   const double dt = std::min(winner.vote.dt, dt_limit);
   clock.dt = dt;
+  clock.before = clock.time;
   clock.time += dt;
   ++clock.step;
   for (Package* package : packages) package->advance(dt);

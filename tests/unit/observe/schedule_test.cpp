@@ -131,16 +131,36 @@ TEST(RowTimes, ARowThatOnlyAStopHasAddedIsDropped) {
   EXPECT_EQ(due, (std::vector{0.0, 1.5, 2.25, 2.5, 3.25}));
   EXPECT_FALSE(whole.kept_until());
   for (const double time : {1.5, 2.25}) {
-    RowTimes resumed(1, {2.5}, Clock{time, 0.75, 3});
+    RowTimes resumed(1, {2.5}, Clock{time, 0.75, 3, time - 0.75});
     EXPECT_EQ(resumed.kept_until(), time);
     EXPECT_FALSE(resumed.pass(time));
   }
-  RowTimes asked(1, {2.5}, Clock{2.5, 0.25, 4});
+  RowTimes asked(1, {2.5}, Clock{2.5, 0.25, 4, 2.25});
   EXPECT_EQ(asked.kept_until(), 2.5);
   EXPECT_EQ(asked.next_time(), std::numeric_limits<double>::infinity());
-  RowTimes between(1, {2.5}, Clock{0.75, 0.75, 1});
+  RowTimes between(1, {2.5}, Clock{0.75, 0.75, 1, 0});
   EXPECT_LT(*between.kept_until(), 0.75);
   EXPECT_TRUE(between.pass(1.5));
+}
+
+TEST(RowTimes, ARestartAgreesWithTheRunThatWentOnWhereverStepsEnd) {
+  // Steps that end at, or next to, the times of rows: sums of 3e-6 are not multiples of it.
+  const double interval = 3e-6;
+  RowTimes whole(interval, {}, {});
+  Clock clock;
+  whole.pass(0);
+  for (; clock.step < 4000; ++clock.step) {
+    const double k = static_cast<double>(clock.step / 2) + 0.3 * static_cast<double>(clock.step % 2);
+    const double dt = k * interval - clock.time;
+    if (!(dt > 0)) continue;
+    clock.before = clock.time;
+    clock.dt = dt;
+    clock.time += dt;
+    const bool due = whole.pass(clock.time);
+    const RowTimes resumed(interval, {}, clock);
+    EXPECT_EQ(resumed.kept_until() == clock.time, due) << clock.step;
+    EXPECT_EQ(resumed.next_row(), whole.next_row()) << clock.step;
+  }
 }
 
 TEST(FrameGovernor, HoldsTheShareButForTheFirstFrame) {
