@@ -38,8 +38,8 @@ CheckpointView checkpoint_view(const Simulation& sim, const std::string& resolve
   view.dt = sim.clock.dt;
   view.step = sim.clock.step;
   view.scene = resolved;
-  view.scalars = {{"wall_seconds", sim.wall_seconds}, {"insitu_seconds", sim.insitu_seconds},
-                  {"time_before", sim.clock.before}};
+  view.scalars = {
+      {"wall_seconds", sim.wall_seconds}, {"insitu_seconds", sim.insitu_seconds}, {"time_before", sim.clock.before}};
   for (const auto& [name, value] : sim.notes) view.scalars[note + name] = value;
   for (const auto& package : sim.packages) save(*package, view);
   return view;
@@ -75,8 +75,7 @@ void restore(Simulation& sim, const Checkpoint& checkpoint) {
   const auto scalar = [&](const char* name, double in_earlier_versions) {
     return checkpoint.scalars.contains(name) ? checkpoint.scalar(name) : in_earlier_versions;
   };
-  sim.clock = {checkpoint.time, checkpoint.dt, checkpoint.step,
-               scalar("time_before", checkpoint.time - checkpoint.dt)};
+  sim.clock = {checkpoint.time, checkpoint.dt, checkpoint.step, scalar("time_before", checkpoint.time - checkpoint.dt)};
   sim.wall_seconds = checkpoint.scalar("wall_seconds");
   sim.insitu_seconds = scalar("insitu_seconds", sim.insitu_seconds);
   for (const auto& [name, value] : checkpoint.scalars)
