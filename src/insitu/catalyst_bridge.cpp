@@ -187,6 +187,8 @@ CatalystBridge::CatalystBridge(const std::vector<Pipeline>& pipelines, PipelineS
   settings.run_folder = std::filesystem::absolute(settings.run_folder).string();
   const std::string images = images_folder(settings).string();
   setenv("PARAVIEW_OVERRIDE_EXTRACTS_OUTPUT_DIRECTORY", images.c_str(), 1);
+  // MPI, which ParaView starts, would end the process where temporary files cannot be written. There is one process.
+  setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
   setenv("VTK_SILENCE_GET_VOID_POINTER_WARNINGS", "1", 1);  // some filters copy our separate x, y, z: that is fine
   state_ = std::make_unique<State>(std::move(settings));
   use_headless_window();

@@ -99,6 +99,11 @@ class OutputFailure(RunTest):
                 self.assertEqual(sorted(Table(out / "images/data.csv")["FILE"]),
                                  sorted(file.name for file in out.glob("images/*.png")))
 
+    def test_no_room_for_temporary_files(self):
+        out = self.run_scene(IMPACT_2D, "run", {**DRAWN, "time.max_steps": 3}, environment={"TMPDIR": "/proc"})
+        self.assertTrue(list(out.glob("images/fragments*.png")))
+        self.assertEqual(complaints(self.last.stderr), [])
+
     def test_a_full_disk(self):
         disk = self.folder / "disk"
         disk.mkdir()
