@@ -172,8 +172,8 @@ class View:
     `subtitle` says what is shown. The scene is seen along parallel lines.
     """
 
-    def __init__(self, name, subtitle, key_width=6):
-        self.name, self.subtitle, self.key_width = name, subtitle, key_width
+    def __init__(self, name, subtitle, legend_width=0):
+        self.name, self.subtitle, self.legend_width = name, subtitle, legend_width
         self.size = settings()["image_size"]
         self.solids = {}  # arguments of draw_solids
         self.bar = self.entries = self._paraview = self._particles = None
@@ -196,7 +196,7 @@ class View:
         self.up = _cross(self.right, self.direction)
         x, y = (sum(c * e for c, e in zip(centre, edge)) for edge in (self.right, self.up))
         w, h = 0.5 * width, 0.5 * (height or width)
-        self.layout = ejecta_paint.Layout(*self.size, 1, [x - w, y - h, x + w, y + h], key_width=self.key_width)
+        self.layout = ejecta_paint.Layout(*self.size, 1, [x - w, y - h, x + w, y + h], legend_width=self.legend_width)
         return self
 
     # -- what is seen --
@@ -222,11 +222,14 @@ class View:
         self.balls(places_of(source)[keep], radii_of(source)[keep], rgb)
         self.colour_bar(field, source)
 
-    def surface(self, points, normals, rgb, triangles, plate=None, corner=(0, 0, 0), across=(1, 0, 0), upwards=(0, 0, 1)):
-        """Triangles with normals and colours at their corners; the `plate` is a picture in space: the face of a cut."""
+    def surface(self, points, normals, rgb, triangles):
+        """Triangles with normals and colours at their corners."""
         self.solids.update(points=points, normals=normals, point_rgb=rgb, triangles=triangles)
-        if plate is not None:
-            self.solids.update(plate=plate, corner=corner, across=across, upwards=upwards)
+
+    def plate(self, rgb, filling, corner, across, upwards):
+        """A picture in space, the face of a cut: colours of its pixels, and how full of matter they are, which ends at
+        one half; centre of the lower left pixel, and from a pixel to the next."""
+        self.solids.update(plate=rgb, filling=filling, corner=corner, across=across, upwards=upwards)
 
     def polygons(self, points, field, source):
         """Flat polygons of equally many corners, (n, corners, 3), coloured by a field of as many values."""

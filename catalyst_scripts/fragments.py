@@ -29,8 +29,9 @@ def ranks():
     return rank, mass[order]
 
 
-def entries(mass, total, colours):
+def entries(mass, dust, colours):
     """Lines of the legend: masses of the target's fragments, and their shares of all the target's mass."""
+    total = mass.sum() + dust
     unit = ejecta.style("mass")["unit"]
     words = []
     for rank, m in enumerate(mass[:NAMED], 1):
@@ -38,7 +39,8 @@ def entries(mass, total, colours):
         words.append((int(colours[rank]), f"{rank}   {amount}   {100 * m / total:.3g} %"))
     if len(mass) > NAMED:
         words.append((int(colours[NAMED + 1]), f"{len(mass) - NAMED} more   {100 * mass[NAMED:].sum() / total:.3g} %"))
-    words.append((int(colours[0]), f"dust   {max(0.0, 100 * (1 - mass.sum() / total)):.3g} %"))
+    if dust > 0:
+        words.append((int(colours[0]), f"dust   {100 * dust / total:.3g} %"))
     return words
 
 
@@ -53,7 +55,7 @@ def catalyst_execute(info):
         return
     s = ejecta.settings()
     if view is None:
-        view = ejecta.View("fragments", "fragments by mass", key_width=15).look_at_scene()
+        view = ejecta.View("fragments", "fragments by mass", legend_width=15).look_at_scene()
     rank, mass = ranks()
     names = [b["name"] for b in s["bodies"]]
     body, target = ejecta.column(source, "body").astype(int), names.index(s["fragment_target"])
@@ -71,7 +73,7 @@ def catalyst_execute(info):
     radii = ejecta.radii_of(source)
     radii[dust] *= DUST_SIZE
     view.balls(ejecta.places_of(source)[keep], radii[keep], colours[own[keep]])
-    lines = entries(mass, ejecta.column(source, "mass")[body == target].sum(), colours)
+    lines = entries(mass, ejecta.column(source, "mass")[dust & (body == target)].sum(), colours)
     lines += [(of_bodies[b], names[b]) for b in numpy.unique(body[others])]
     view.legend(f"fragments of {names[target]}", lines)
     view.save(info)

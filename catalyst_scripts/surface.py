@@ -65,7 +65,8 @@ def face(field, palette):
         breaks = numpy.array([b["breaks"] for b in ejecta.settings()["bodies"]])
         whole = (body >= 0) & ~breaks[body] & numpy.isfinite(values)
         rgb = numpy.where(whole, palette[body], rgb)
-    return dict(plate=rgb, corner=corner, across=(step[0], 0, 0), upwards=(0, 0, step[2]))
+    filling = ejecta.column(slice_channel, "filling").reshape(rows, columns)
+    return rgb, filling, corner, (step[0], 0, 0), (0, 0, step[2])
 
 
 def catalyst_execute(info):
@@ -83,6 +84,7 @@ def catalyst_execute(info):
     view.balls(places[lone], SPRAY * ejecta.radii_of(source)[lone], palette[ejecta.column(source, "body")[lone]])
     mesh = outside(palette)
     if mesh is not None:
-        view.surface(*mesh, **face(field, palette))
+        view.surface(*mesh)
+        view.plate(*face(field, palette))
     view.colour_bar(field, slice_channel)
     view.save(info)

@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <numeric>
 
@@ -67,9 +68,21 @@ std::array<float, 3> ScreenTriangle::weights(float px, float py) const {
 }
 
 std::uint32_t ScreenPlate::at(float x, float y) const {
-  const int i = static_cast<int>(std::floor(a.at(x, y) + 0.5f)), j = static_cast<int>(std::floor(b.at(x, y) + 0.5f));
+  const float u = a.at(x, y), v = b.at(x, y);
+  const int i = static_cast<int>(std::floor(u + 0.5f)), j = static_cast<int>(std::floor(v + 0.5f));
   if (i < 0 || j < 0 || i >= width || j >= height) return Plate::nothing;
-  return rgb[static_cast<std::size_t>(j) * static_cast<std::size_t>(width) + static_cast<std::size_t>(i)];
+  const auto index = [&](int column, int row) {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column);
+  };
+  if (!filling.empty() && width > 1 && height > 1) {
+    const int left = std::clamp(static_cast<int>(std::floor(u)), 0, width - 2),
+              low = std::clamp(static_cast<int>(std::floor(v)), 0, height - 2);
+    const auto row = [&](int k) {
+      return std::lerp(filling[index(left, k)], filling[index(left + 1, k)], u - static_cast<float>(left));
+    };
+    if (!(std::lerp(row(low), row(low + 1), v - static_cast<float>(low)) >= 0.5f)) return Plate::nothing;
+  }
+  return rgb[index(i, j)];
 }
 
 Screen::Screen(const Solids& solids, const Camera& camera, int w, int h) : width(w), height(h) {
@@ -112,7 +125,8 @@ Screen::Screen(const Solids& solids, const Camera& camera, int w, int h) : width
            linear(slope[0], slope[1], corner[2]),
            solids.plate.width,
            solids.plate.height,
-           solids.plate.rgb};
+           solids.plate.rgb,
+           solids.plate.filling};
 }
 
 DepthBuffer::DepthBuffer(const Screen& screen)

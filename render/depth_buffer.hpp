@@ -28,6 +28,7 @@ struct ScreenPlate {
   Linear a, b, z;
   int width = 0, height = 0;
   std::span<const std::uint32_t> rgb;
+  std::span<const float> filling;
   std::uint32_t at(float x, float y) const;
 };
 

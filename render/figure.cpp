@@ -117,9 +117,12 @@ set label 'resolution limit' at limit, graph 0.03 rotate by 90 offset 0.9,0 text
                           settings.resolution_limit);
   return script + R"(set xrange [low:high]
 set yrange [0.8:10<*]
-)" + (measured ? "set key top right\n" : "set key off\n") + R"(plot 'fragment_distribution.csv' using 2:3 with steps ls 1 title 'computed', '' using 2:3 with points ls 1 ps 0.9 notitle)" +
-         (measured ? R"(, 'fragments_measured.csv' using ($1 / whole):2 with steps ls 2 title 'caught', '' using ($1 / whole):2 with points ls 2 ps 0.9 notitle)"
-                   : "") + "\n";
+)" + (measured ? "set key top right\n" : "set key off\n") +
+         R"(plot 'fragment_distribution.csv' using 2:3 with steps ls 1 title 'computed', '' using 2:3 with points ls 1 ps 0.9 notitle)" +
+         (measured
+              ? R"(, 'fragments_measured.csv' using ($1 / whole):2 with steps ls 2 title 'caught', '' using ($1 / whole):2 with points ls 2 ps 0.9 notitle)"
+              : "") +
+         "\n";
 }
 
 /// Mass in fragments by their mass, half a decade a bar.
@@ -129,12 +132,13 @@ std::optional<std::string> fragment_histogram(const fs::path& run, const FigureS
   const std::size_t share = table.find("mass fraction");
   if (share == CsvTable::npos || table.rows.size() < 2) return {};  // the last row is dust
   const std::string& dust = table.rows.back()[share];
-  const bool measured = fs::exists(run / "fragments_measured.csv") &&
-                        !read_csv(run / "fragment_distribution.csv").rows.empty();
+  const bool measured =
+      fs::exists(run / "fragments_measured.csv") && !read_csv(run / "fragment_distribution.csv").rows.empty();
   std::string script = preamble("fragment_histogram", settings.title, "mass in fragments by their mass");
   script += "set xlabel " +
             quoted("mass of " + settings.fragment_target + " in a fragment / mass of " + settings.fragment_target) +
-            " noenhanced\nset ylabel " + quoted("share of the mass of " + settings.fragment_target + " [%]") + " noenhanced\n";
+            " noenhanced\nset ylabel " + quoted("share of the mass of " + settings.fragment_target + " [%]") +
+            " noenhanced\n";
   if (measured) script += "stats 'fragment_distribution.csv' using ($1 / $2) nooutput\nwhole = STATS_mean\n";
   // Bars are counted before the axis is logarithmic, by the number of their half decade.
   const std::string columns = fmt::format("(half_decade(${0})):(100 * ${0})", share + 1);
@@ -160,7 +164,9 @@ set key bmargin center horizontal
 plot $computed using (edge($1 + 0.5)):2:(edge($1)):(edge($1 + 1)):(0):2 with boxxyerror ls 1 title 'computed')",
                         dust.empty() ? "0" : dust);
   if (measured)
-    script += ", $caught using (edge($1 + 0.5)):2:(edge($1 + 0.2)):(edge($1 + 0.8)):(0):2 with boxxyerror ls 2 title 'caught'";
+    script +=
+        ", $caught using (edge($1 + 0.5)):2:(edge($1 + 0.2)):(edge($1 + 0.8)):(0):2 with boxxyerror ls 2 title "
+        "'caught'";
   return script + "\n";
 }
 
@@ -218,10 +224,12 @@ unset multiplot
 
 /// A panel for each column that people look at, all over the same time.
 std::optional<std::string> probe(const fs::path& run, const FigureSettings& settings, const ProbeFigure& probe) {
-  const std::string file = fmt::format("probe_{}.csv", probe.name), measured = fmt::format("probe_{}_measured.csv", probe.name);
+  const std::string file = fmt::format("probe_{}.csv", probe.name),
+                    measured = fmt::format("probe_{}_measured.csv", probe.name);
   if (!fs::exists(run / file)) return {};
   const CsvTable table = read_csv(run / file);
-  const std::optional<CsvTable> points = fs::exists(run / measured) ? std::optional(read_csv(run / measured)) : std::nullopt;
+  const std::optional<CsvTable> points =
+      fs::exists(run / measured) ? std::optional(read_csv(run / measured)) : std::nullopt;
   struct Panel {
     std::string name;
     std::size_t column;
@@ -248,8 +256,9 @@ plot '{0}' using ($1 / t):(${1} / u) with lines ls 1 title 'computed')",
                           file, panels[k].column + 1, panels[k].name, seen == CsvTable::npos ? "off" : "bottom right",
                           unit == "1" ? 0 : 1, unit);
     if (seen != CsvTable::npos)
-      script += fmt::format(", '{}' using (($1 + {:.9g}) / t):(${} / u) with points lc rgb '#222222' pt 6 ps 0.7 title 'measured'",
-                            measured, probe.measured_delay, seen + 1);
+      script += fmt::format(
+          ", '{}' using (($1 + {:.9g}) / t):(${} / u) with points lc rgb '#222222' pt 6 ps 0.7 title 'measured'",
+          measured, probe.measured_delay, seen + 1);
     script += '\n';
   }
   return script + "unset multiplot\n";

@@ -14,8 +14,8 @@ struct ProbeFigure {
 };
 
 struct FigureSettings {
-  std::string title;                                                   ///< over every plot
-  std::string fragment_target;                                         ///< body that fragment masses refer to
+  std::string title;            ///< over every plot
+  std::string fragment_target;  ///< body that fragment masses refer to
   std::vector<ProbeFigure> probes;
   double resolution_limit = std::numeric_limits<double>::quiet_NaN();  ///< smallest mass counted as a fragment [kg]
 };
@@ -28,8 +28,9 @@ struct Figure {
 
 /// Draws what there is data for: figures/compaction.png (from figures/compaction.csv and figures/crush_curve.csv),
 /// fragment_distribution.png, largest_fragment.png and energy.png (from fragment_distribution.csv,
-/// largest_fragment.csv and history.csv), probe_<name>.png (from probe_<name>.csv: velocity, pressure and strain, as far
-/// as they are there, and what was measured of them). Plots without data are left out; without gnuplot each says so.
+/// largest_fragment.csv and history.csv), probe_<name>.png (from probe_<name>.csv: velocity, pressure and strain, as
+/// far as they are there, and what was measured of them). Plots without data are left out; without gnuplot each says
+/// so.
 std::vector<Figure> make_figures(const std::filesystem::path& run_folder, const FigureSettings& settings);
 
 }  // namespace ejecta

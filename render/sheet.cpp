@@ -10,12 +10,13 @@ namespace ejecta {
 
 namespace {
 
+constexpr int coarsest = 2;  ///< pixels of a picture to one of a grid
 constexpr Colour paper{1, 1, 1}, band_colour{0.93, 0.94, 0.955}, ink{0.13, 0.15, 0.18}, faint{0.42, 0.45, 0.50};
 constexpr std::uint32_t empty = 0xFFFFFF;
 
 // In fonts.
 constexpr double band_height = 2.5, title_height = 2.0, axis_height = 3.1, axis_width = 4.6, bar_height = 3.4,
-                 gap_beside = 1.8, gap_above = 0.5, edge = 1.2;
+                 bar_width = 6, gap_beside = 1.8, gap_above = 0.5, edge = 1.2;
 
 /// What may stand along a bar or an axis without touching its neighbours: the first ones come first.
 class Taken {
@@ -53,7 +54,7 @@ Window Layout::everywhere() {
   return {{-far, -far}, {far, far}};
 }
 
-Layout::Layout(int w, int h, int count, const Window& wanted, const Window& limits, double key_width)
+Layout::Layout(int w, int h, int count, const Window& wanted, const Window& limits, double legend_width)
     : width(w), height(h), font(std::clamp(h / 50.0, 8.0, 40.0)) {
   Window view;
   for (std::size_t a = 0; a < 2; ++a) {
@@ -64,13 +65,13 @@ Layout::Layout(int w, int h, int count, const Window& wanted, const Window& limi
   const double left = axis_width * font, top = (band_height + title_height) * font, n = count;
   const double beside_width = (w - left - edge * font - (n - 1) * gap_beside * font) / n,
                beside_height = h - top - (axis_height + bar_height) * font;
-  const double above_width = w - left - (edge + key_width) * font,
+  const double above_width = w - left - (edge + std::max(bar_width, legend_width)) * font,
                above_height =
                    (h - band_height * font - axis_height * font - (n - 1) * gap_above * font) / n - title_height * font;
   const double beside = std::min(beside_width / view.width(), beside_height / view.height()),
                above = std::min(above_width / view.width(), above_height / view.height());
-  keys_below = beside > above;
-  const double scale = std::max(beside, above);  // pixels/m
+  keys_below = legend_width == 0 && beside > above;
+  const double scale = keys_below ? beside : above;  // pixels/m
   const double room[2] = {std::max(1.0, keys_below ? beside_width : above_width),
                           std::max(1.0, keys_below ? beside_height : above_height)};
   double size[2];
@@ -93,7 +94,7 @@ Layout::Layout(int w, int h, int count, const Window& wanted, const Window& limi
 }
 
 PixelGrid Layout::grid(double finest) const {
-  const int coarse = std::max(1, static_cast<int>(finest / pixel()));
+  const int coarse = std::clamp(static_cast<int>(finest / pixel()), 1, coarsest);
   const int columns = std::max(1, static_cast<int>(panes[0].width) / coarse),
             rows = std::max(1, static_cast<int>(panes[0].height) / coarse);
   const double size = std::max(window.width() / columns, window.height() / rows);

@@ -37,13 +37,14 @@ struct Layout {
   Window window;                ///< what each of them shows
 
   /// Each pane shows at least `wanted`, and more where there is room, but nothing beyond `limits`.
-  /// `key_width` in fonts: room for what stands to the right of a pane.
-  Layout(int width, int height, int panes, const Window& wanted, const Window& limits, double key_width = 6);
+  /// `legend_width` in fonts: room for a legend, which stands to the right whatever it costs; 0: there is none.
+  Layout(int width, int height, int panes, const Window& wanted, const Window& limits, double legend_width = 0);
   /// The largest window there is: no limits.
   static Window everywhere();
 
   double pixel() const { return window.width() / panes[0].width; }  ///< m
-  /// The pixels of a pane, or if that is finer than `finest` [m] so many times fewer.
+  /// The pixels of a pane, or if that is finer than `finest` [m] so many times fewer, but half as many at least: edges
+  /// of matter would show the grid.
   PixelGrid grid(double finest = 0) const;
 };
 

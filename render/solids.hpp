@@ -40,6 +40,8 @@ struct Plate {
   Vec<3> across = Vec<3>::UnitX(), upwards = Vec<3>::UnitZ();  ///< from a pixel to the next [m]
   int width = 0, height = 0;
   std::span<const std::uint32_t> rgb;  ///< rows upwards
+  /// If there is any: how full of matter the pixels are; between them it is linear, and matter ends at one half.
+  std::span<const float> filling;
 };
 
 struct Solids {

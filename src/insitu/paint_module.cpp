@@ -50,6 +50,7 @@ void check_sizes(const Solids& s) {
   expect(s.surface.triangles.size() % 3 == 0, "surface: expected three corners a triangle");
   expect(s.plate.rgb.size() == static_cast<std::size_t>(s.plate.width) * static_cast<std::size_t>(s.plate.height),
          "plate: expected a colour a pixel");
+  expect(s.plate.filling.empty() || s.plate.filling.size() == s.plate.rgb.size(), "plate: expected a filling a pixel");
 }
 
 void define(py::module_& m) {
@@ -81,12 +82,12 @@ void define(py::module_& m) {
 
   py::class_<Layout>(m, "Layout")
       .def(py::init([](int width, int height, int panes, std::array<double, 4> wanted, bool nothing_beyond,
-                       double key_width) {
+                       double legend_width) {
              const Window window{{wanted[0], wanted[1]}, {wanted[2], wanted[3]}};
-             return Layout(width, height, panes, window, nothing_beyond ? window : Layout::everywhere(), key_width);
+             return Layout(width, height, panes, window, nothing_beyond ? window : Layout::everywhere(), legend_width);
            }),
            py::arg("width"), py::arg("height"), py::arg("panes"), py::arg("wanted"), py::arg("nothing_beyond") = false,
-           py::arg("key_width") = 6.0)
+           py::arg("legend_width") = 0.0)
       .def_property_readonly(
           "pane_size",
           [](const Layout& l) {
@@ -130,15 +131,20 @@ void define(py::module_& m) {
       [](const Camera& camera, std::array<int, 2> size, bool flat, const Array<float>& places,
          const Array<float>& radii, const Array<std::uint32_t>& rgb, const Array<float>& points,
          const Array<float>& normals, const Array<std::uint32_t>& point_rgb, const Array<std::int32_t>& triangles,
-         const Vec<3>& corner, const Vec<3>& across, const Vec<3>& upwards, const Array<std::uint32_t>& plate) {
+         const Vec<3>& corner, const Vec<3>& across, const Vec<3>& upwards, const Array<std::uint32_t>& plate,
+         const Array<float>& filling) {
         Solids solids{{span_of(places), span_of(radii), span_of(rgb)},
                       {span_of(points), span_of(normals), span_of(point_rgb), span_of(triangles)},
                       {},
                       flat};
         if (plate.ndim() == 2)
-          solids.plate = {
-              corner,        across, upwards, static_cast<int>(plate.shape(1)), static_cast<int>(plate.shape(0)),
-              span_of(plate)};
+          solids.plate = {corner,
+                          across,
+                          upwards,
+                          static_cast<int>(plate.shape(1)),
+                          static_cast<int>(plate.shape(0)),
+                          span_of(plate),
+                          span_of(filling)};
         check_sizes(solids);
         return array_of(draw_solids(solids, camera, size[0], size[1], 0xFFFFFFu));
       },
@@ -147,7 +153,7 @@ void define(py::module_& m) {
       py::arg("normals") = Array<float>(), py::arg("point_rgb") = Array<std::uint32_t>(),
       py::arg("triangles") = Array<std::int32_t>(), py::arg("corner") = Vec<3>(0, 0, 0),
       py::arg("across") = Vec<3>(1, 0, 0), py::arg("upwards") = Vec<3>(0, 0, 1),
-      py::arg("plate") = Array<std::uint32_t>());
+      py::arg("plate") = Array<std::uint32_t>(), py::arg("filling") = Array<float>());
   m.def("rank_colour", [](int rank) { return packed(rank_colour(rank)); });
   m.def("body_colour", [](int body) { return packed(body_colour(body)); });
   m.attr("NOTHING") = Plate::nothing;

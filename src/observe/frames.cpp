@@ -48,6 +48,14 @@ constexpr int burst_density = 10;
 const std::string note = "insitu event: ";
 /// A slice is sampled no more finely than this: there is nothing to see between.
 constexpr double samples_per_spacing = 3;
+/// Wall time of the steps to come [s], if they are like those so far and of the length of the last one.
+double seconds_ahead(const Simulation& sim) {
+  const Clock& clock = sim.clock;
+  if (clock.step == 0) return 0;
+  double steps = (sim.scene.time_end - clock.time) / clock.dt;
+  if (const auto& most = sim.scene.max_steps) steps = std::min(steps, static_cast<double>(*most - clock.step));
+  return std::max(0.0, steps) * sim.wall_seconds / static_cast<double>(clock.step);
+}
 /// Renderers say little, and in words of their own, where an image cannot be written. So it is tried before. Throws
 /// OutputError.
 void check_room(const std::filesystem::path& images) {
@@ -134,7 +142,11 @@ void Frames::observe(Simulation& sim, bool last) {
   if (enabled && !seen && events_.wants_any()) watch(sim, frame);
   const std::vector<PipelineCall> calls = enabled ? calls_at(now, frame, last) : std::vector<PipelineCall>{};
   if (!first && frame.reason.empty() && calls.empty()) return;
-  if (enabled && !first && !frame.always && !governor_.affords(sim.insitu_seconds, sim.wall_seconds)) {
+  const auto affordable = [&] {
+    return governor_.affords(sim.insitu_seconds, sim.wall_seconds) ||
+           (frame.on_credit && governor_.lends(sim.insitu_seconds, sim.wall_seconds + seconds_ahead(sim)));
+  };
+  if (enabled && !first && !frame.always && !affordable()) {
     if (left_out_++ == 0)
       warn(fmt::format("frames are left out that would take more than {:.0f} % of the wall time (insitu.max_share)",
                        100 * sim.scene.insitu.max_share));

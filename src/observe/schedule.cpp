@@ -89,16 +89,17 @@ double FrameSchedule::next() const {
 FrameSchedule::Due FrameSchedule::take(const Moment& now, bool last) {
   Due due;
   if (now.step == last_drawn_) return due;
-  const auto look = [&](std::vector<Trigger>& triggers, bool always) {
+  const auto look = [&](std::vector<Trigger>& triggers, bool always, bool on_credit = false) {
     for (Trigger& trigger : triggers) {
       if (!trigger.take(now)) continue;
       due.always |= always;
+      due.on_credit |= on_credit;
       due.scheduled = true;
       if (due.reason.empty()) due.reason = trigger.reason();
     }
   };
   look(always_, true);
-  look(loose_, true);
+  look(loose_, false, true);
   look(others_, false);  // a movie of these must have no gap where a frame of the first kind falls on one
   look(frames_, listed_);
   due.always |= last || asked_;
@@ -127,7 +128,13 @@ void FrameSchedule::add(std::vector<double> times, std::string reason) {
 bool FrameGovernor::affords(double insitu_seconds, double step_seconds) const {
   if (!begun_ || max_share_ >= 1) return true;
   const double insitu = insitu_seconds - insitu_before_ + cost_, steps = step_seconds - steps_before_;
-  return insitu <= max_share_ * (insitu + steps);
+  return insitu <= std::max(granted, max_share_ * (insitu + steps));
+}
+
+bool FrameGovernor::lends(double insitu_seconds, double all_step_seconds) const {
+  if (!begun_ || max_share_ >= 1) return true;
+  const double budget = max_share_ / (1 - max_share_) * (all_step_seconds - steps_before_);
+  return insitu_seconds - insitu_before_ + cost_ <= 0.5 * std::max(granted, budget);
 }
 
 void FrameGovernor::drawn(double insitu_before, double insitu_after, double step_seconds) {

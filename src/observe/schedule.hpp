@@ -101,6 +101,7 @@ class FrameSchedule {
   struct Due {
     std::string reason;      ///< empty: there is no frame
     bool always = false;     ///< whatever it costs
+    bool on_credit = false;  ///< before it has been earned, if it will be
     bool scheduled = false;  ///< also where nobody stops the run or asks for a frame
   };
   /// `last`: of the run. No step is drawn twice.
@@ -128,10 +129,14 @@ class FrameSchedule {
 /// Keeps in-situ work to its share of the wall time: a frame has to be earned before it is drawn.
 class FrameGovernor {
  public:
+  /// In-situ work that every run may do, whatever its share [s]: short runs are there for their pictures.
+  static constexpr double granted = 20;
   explicit FrameGovernor(double max_share) : max_share_(max_share) {}
 
   /// With the wall times so far [s]: whether a frame that costs as much as the one before keeps within the share.
   bool affords(double insitu_seconds, double step_seconds) const;
+  /// Whether it does so with what all the run's steps will take [s], leaving half of the share to frames to come.
+  bool lends(double insitu_seconds, double all_step_seconds) const;
   /// To be told of every frame. The first one pays for starting the renderer, and is not counted.
   void drawn(double insitu_before, double insitu_after, double step_seconds);
 

@@ -93,7 +93,9 @@ TEST(FrameSchedule, ABurstIsDrawnAtTheNextSteps) {
   FrameSchedule schedule(scene_of(2));
   schedule.take({0, 0, 0}, false);
   schedule.add({2.5, 2.7, 4.1}, "after first contact");
-  EXPECT_EQ(drawn_steps(schedule, 1), (std::vector{3, 5, 10}));
+  const FrameSchedule::Due due = schedule.take({3, 3, 0}, false);
+  EXPECT_TRUE(due.on_credit && !due.always);
+  EXPECT_EQ(drawn_steps(schedule, 4), (std::vector{5, 10}));
 }
 
 TEST(FrameSchedule, GoesOnAfterARestartWithTheNextFrame) {
@@ -176,6 +178,31 @@ TEST(FrameGovernor, HoldsTheShareButForTheFirstFrame) {
   const double after_first = insitu - 100;
   EXPECT_LE(after_first / (after_first + 1000), 0.2);
   EXPECT_GT(after_first / (after_first + 1000), 0.19);
+}
+
+TEST(FrameGovernor, LendsHalfOfWhatTheWholeRunWillEarn) {
+  FrameGovernor governor(0.2);  // of a run of 1000 seconds, in which 250 may go to frames
+  double insitu = 0;
+  governor.drawn(0, insitu += 3, 0);
+  int drawn = 0;
+  for (; governor.lends(insitu, 1000); ++drawn) {
+    EXPECT_FALSE(insitu > FrameGovernor::granted && governor.affords(insitu, 1));
+    governor.drawn(insitu, insitu + 5, 1);
+    insitu += 5;
+  }
+  EXPECT_EQ(drawn, 25);
+}
+
+TEST(FrameGovernor, LeavesNothingOutOfShortRuns) {
+  FrameGovernor governor(0.1);  // steps take a second in all, and each frame another
+  governor.drawn(0, 5, 0);
+  double insitu = 5;
+  for (int frame = 1; governor.affords(insitu, 1); ++frame) {
+    ASSERT_LE(frame, FrameGovernor::granted);
+    governor.drawn(insitu, insitu + 1, 1);
+    insitu += 1;
+  }
+  EXPECT_EQ(insitu, 5 + FrameGovernor::granted);
 }
 
 TEST(FrameGovernor, LeavesNothingOutWithTheWholeShare) {

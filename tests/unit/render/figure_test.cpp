@@ -41,7 +41,8 @@ class FigureTest : public testing::Test {
     caught << "mass [kg],fragments at least as heavy [1]\n0.02,1\n0.001,2\n";
     std::ofstream probe(run / "probe_A.csv"), measured(run / "probe_A_measured.csv");
     probe << "time [s],velocity [m/s],pressure [Pa]\n";
-    for (int k = 0; k <= 60; ++k) probe << k * 1e-6 << ',' << 200 * (1 - std::exp(-k / 9.0)) << ',' << 1e9 - 1e7 * k << '\n';
+    for (int k = 0; k <= 60; ++k)
+      probe << k * 1e-6 << ',' << 200 * (1 - std::exp(-k / 9.0)) << ',' << 1e9 - 1e7 * k << '\n';
     measured << "time [s],velocity [m/s]\n1e-6,100\n2e-6,180\n";
     std::ofstream largest(run / "largest_fragment.csv"), history(run / "history.csv");
     largest << "time [s],largest fragment mass fraction [1],fragments [1],dust mass fraction [1]\n";

@@ -123,6 +123,14 @@ TEST(Layout, OfThreePanesOfASquareUsesMostOfTheWidth) {
   EXPECT_GT(3 * layout.panes[0].width, 0.85 * 1920);
 }
 
+TEST(Layout, ALegendStandsBesideALongWindowToo) {
+  const Window flat{{0, 0}, {10, 1}};
+  EXPECT_TRUE(Layout(1920, 1080, 1, flat, Layout::everywhere()).keys_below);
+  const Layout layout(1920, 1080, 1, flat, Layout::everywhere(), 15);
+  EXPECT_FALSE(layout.keys_below);
+  EXPECT_LE(layout.panes[0].x + layout.panes[0].width, 1920 - 15 * layout.font);
+}
+
 TEST(Layout, ShowsNothingBeyondItsLimits) {
   const Layout layout(1920, 1080, 1, square, {{0, -1}, {1, 1}});
   EXPECT_GE(layout.window.low[0], -1e-12);
@@ -136,9 +144,12 @@ TEST(Layout, ItsGridCoversThePaneWithSquarePixels) {
   EXPECT_EQ(fine.width, layout.panes[0].width);
   EXPECT_NEAR(fine.first[0] - 0.5 * fine.pixel, layout.window.low[0], 1e-12);
   EXPECT_NEAR(fine.first[1] - 0.5 * fine.pixel, layout.window.low[1], 1e-12);
-  const PixelGrid coarse = layout.grid(3.5 * layout.pixel());
-  EXPECT_EQ(coarse.width, fine.width / 3);
-  EXPECT_GE(coarse.pixel * coarse.width, layout.window.width() * (1 - 1e-12));
+  EXPECT_EQ(layout.grid(1.5 * layout.pixel()).width, fine.width);
+  for (const double finest : {2.5, 20.0}) {
+    const PixelGrid coarse = layout.grid(finest * layout.pixel());
+    EXPECT_EQ(coarse.width, fine.width / 2);
+    EXPECT_GE(coarse.pixel * coarse.width, layout.window.width() * (1 - 1e-12));
+  }
 }
 
 class SheetTest : public testing::Test {

@@ -98,6 +98,17 @@ TEST(Solids, APlateKeepsItsColoursAndItsHoles) {
   EXPECT_EQ(at(r, 0.5, 0.5), red);
 }
 
+TEST(Solids, APlateEndsWhereItIsHalfFullBetweenItsPixels) {
+  const std::vector<std::uint32_t> rgb(4, red);
+  const std::vector<float> filling{1, 0.2f, 1, 0.2f};  // one half at 5/8 of the way from left to right
+  const Solids solids{{}, {}, {{-0.5, 0, -0.5}, {1, 0, 0}, {0, 0, 1}, 2, 2, rgb, filling}, false};
+  const Raster r = draw_solids(solids, camera(), width, height, white);
+  for (const double z : {-0.4, 0.0, 0.4}) {
+    EXPECT_EQ(at(r, 0.125 - 0.02, z), red);
+    EXPECT_EQ(at(r, 0.125 + 0.02, z), white);
+  }
+}
+
 TEST(Solids, FlatOnesAreDiscsOfTheirOwnColour) {
   Balls balls;
   balls.add({0, 0, 0}, 0.5, red);
