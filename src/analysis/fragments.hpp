@@ -65,7 +65,7 @@ struct Fragment {
   Vec<3> centre, velocity;               ///< m, m/s: of the centre of mass; in the box where that is periodic
   Vec<3> spin;                           ///< rad/s: of the rigid body with the same inertia and angular momentum
   Vec<3> semi_axes;                      ///< m, descending: of the uniform ellipsoid (2D: ellipse) of the same inertia
-  Vec<3> long_axis;                      ///< unit vector along the first of them, its largest component positive
+  Vec<3> long_axis = Vec<3>::Zero();     ///< unit vector along the first of them, its largest component positive
   double mean_damage = 0, mean_distension = 1;  ///< by mass
 
   /// Mass of the matter that comes from one body [kg].

@@ -42,6 +42,8 @@ const std::array written{
             {"resolved.toml", "run.log", "insitu.log", "history.csv", "timers.csv", "fragments.csv", "shock.csv",
              "fragment_distribution.csv", "fragments_measured.csv", "largest_fragment.csv", "summary.json",
              "movie_*.mp4", "montage.mp4", "title.png", "control", "control.#", "control.taken"}}};
+/// Appended to the name of a table that a restart with other columns has put aside.
+const std::array<std::string, 2> aside{".aside", ".aside#"};
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -56,7 +58,11 @@ bool matches(std::string_view pattern, std::string_view name) {
 
 bool is_written(const Written& place, std::string name) {
   if (name.ends_with(".part")) name.resize(name.size() - 5);  // left behind where a run was killed
-  return std::ranges::any_of(place.names, [&](const std::string& pattern) { return matches(pattern, name); });
+  return std::ranges::any_of(place.names, [&](const std::string& pattern) {
+    return matches(pattern, name) ||
+           (pattern.ends_with(".csv") &&
+            std::ranges::any_of(aside, [&](const std::string& end) { return matches(pattern + end, name); }));
+  });
 }
 
 /// True if `folder` is the other one or lies around it.
@@ -86,7 +92,8 @@ std::vector<fs::path> files_of_probes(const fs::path& folder) try {
     const auto item = scene.items.find(element_path("probes", k) + ".name");
     const auto* name = item == scene.items.end() ? nullptr : std::get_if<std::string>(&item->second.literal.value);
     if (!name || name->find('/') != std::string::npos) continue;
-    for (const char* pattern : {"probe_{}.csv", "probe_{}_measured.csv", "figures/probe_{}.png", "figures/probe_{}.gp"})
+    for (const char* pattern :
+         {"probe_{}.csv", "probe_{}.csv.aside", "probe_{}_measured.csv", "figures/probe_{}.png", "figures/probe_{}.gp"})
       files.push_back(folder / fmt::format(fmt::runtime(pattern), *name));
   }
   return files;

@@ -22,7 +22,8 @@ class CsvWriter {
   /// A new file, replacing an old one with the first row.
   CsvWriter(std::filesystem::path file, std::span<const CsvColumn> columns);
   /// Goes on with an existing file after a restart: rows whose first column exceeds `resume_at` are dropped.
-  /// A file that is not there, or has other columns, is begun anew.
+  /// Of a file with other columns rows keep what the new one has too; if that is not all, the old file is kept as
+  /// *.aside.
   CsvWriter(std::filesystem::path file, std::span<const CsvColumn> columns, double resume_at);
 
   /// Appends one row, one cell a column, and hands it to the system at once. NaN is written as an empty cell. Throws
@@ -31,11 +32,13 @@ class CsvWriter {
 
  private:
   void write();
+  void keep_old_file();
 
   std::filesystem::path file_;
   std::size_t columns_;
   std::vector<std::string> lines_;  ///< header and rows
   std::size_t written_ = 0;         ///< so many of them are in the file
+  bool old_file_has_more_ = false;  ///< than what has been taken from it
 };
 
 /// A whole table at once. Throws OutputError if it cannot be written.

@@ -51,6 +51,31 @@ TEST(Csv, ResumeDropsLaterRowsAndTornLines) {
   EXPECT_EQ(table.rows[3][1], "99");
 }
 
+TEST(Csv, ResumesAFileOfOtherColumnsByTheirNames) {
+  const auto file = scratch("other_columns.csv"), aside = scratch("other_columns.csv.aside");
+  for (const char* end : {"", ".aside", ".aside2"}) std::filesystem::remove(file.string() + end);
+  {
+    CsvWriter writer(file, columns);
+    for (int k = 0; k < 3; ++k) writer.row(std::vector<CsvCell>{1.0 * k, std::int64_t{k}, std::string("a, b")});
+  }
+  const std::vector<CsvColumn> more{{"time", "s"}, {"reason", ""}, {"dt", "s"}, {"step", "1"}};
+  CsvWriter(file, more, 1).row(std::vector<CsvCell>{1.5, std::string("c"), 0.5, std::int64_t{9}});
+  CsvTable table = read_csv(file);
+  ASSERT_EQ(table.rows.size(), 3u);
+  EXPECT_EQ(table.rows[1], (std::vector<std::string>{"1", "a, b", "", "1"}));
+  EXPECT_EQ(table.rows[2], (std::vector<std::string>{"1.5", "c", "0.5", "9"}));
+  EXPECT_FALSE(std::filesystem::exists(aside));  // nothing was lost
+  const std::vector<CsvColumn> fewer{{"time", "s"}, {"dt", "s"}};
+  for (int k = 0; k < 2; ++k) {
+    CsvWriter(file, k == 0 ? fewer : columns, 2)
+        .row(k == 0 ? std::vector<CsvCell>{3.0, 1.0} : std::vector<CsvCell>{4.0, std::int64_t{1}, std::string()});
+  }
+  EXPECT_EQ(read_csv(file).rows.size(), 4u);
+  EXPECT_EQ(read_csv(aside).columns.size(), more.size());
+  EXPECT_EQ(read_csv(aside).rows.size(), 3u);
+  EXPECT_EQ(read_csv(file.string() + ".aside2").columns.size(), fewer.size());
+}
+
 TEST(Csv, UnwritablePlaceIsAnOutputError) {
   const auto in_the_way = scratch("a_file");
   std::ofstream(in_the_way) << "no folder";
