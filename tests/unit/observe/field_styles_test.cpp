@@ -65,6 +65,12 @@ TEST(FieldStyles, WithoutFlawsTheYieldStressCountsAndWithoutThatTheModulus) {
   EXPECT_EQ(field_styles(scene, extremes(scene, {m}, Outset{})).at("pressure").range->max, 1e9);
 }
 
+TEST(FieldStyles, SolidsAreNeverThinnerThanHalf) {
+  const Scene scene;
+  EXPECT_EQ(field_styles(scene, extremes(scene, {rock()}, impact())).at("density").range->min, 1500);
+  EXPECT_EQ(field_styles(scene, extremes(scene, {rock(), Material{}}, impact())).at("density").range->min, 0);  // a gas
+}
+
 TEST(FieldStyles, RangesOfTheSceneComeFirst) {
   Scene scene;
   scene.insitu.ranges = {{"pressure", {0, 1e6}}, {"sound_speed", {100, 200}}};

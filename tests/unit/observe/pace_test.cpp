@@ -26,6 +26,16 @@ TEST(Pace, TakesHalfAMinuteAtLeast) {
   EXPECT_NEAR(*pace.left(64e-6, {}), 30, 1e-6);
 }
 
+TEST(Pace, TakesATenthOfALongRun) {
+  Pace pace;
+  // Slow but for its last hundred seconds.
+  for (int second = 0; second <= 900; ++second) pace.add(second, {1e-3 * second, 1e-3, second});
+  for (int second = 1; second <= 100; ++second) pace.add(900 + second, {0.9 + 2e-3 * second, 2e-3, 900 + second});
+  EXPECT_NEAR(*pace.left(2.1, {}), 500, 1e-6);
+  for (int second = 1; second <= 40; ++second) pace.add(1000 + second, {1.1 + 1e-2 * second, 1e-2, 1000 + second});
+  EXPECT_NEAR(*pace.left(2.5, {}), 1.0 * 104 / (2e-3 * 64 + 1e-2 * 40), 1e-6);
+}
+
 TEST(Pace, ARunThatStandsStillHasNone) {
   Pace pace;
   for (int second = 0; second < 100; ++second) pace.add(second, {1e-6, 1e-9, 7});

@@ -58,6 +58,24 @@ TEST(Volume, IsFullWithinMatterHalfFullAtItsFaceAndEmptyBeyond) {
   EXPECT_NEAR(volume, std::pow(16e-3, 3), 1e-3 * std::pow(16e-3, 3));
 }
 
+TEST(Volume, ABodyReachesToTheMiddleBetweenItAndTheNextOneInWhateverOrder) {
+  Block block(16);
+  const Lattice3 lattice = lattice_within({0, 0, 0}, {16e-3, 16e-3, 16e-3}, 0.4e-3, 1e6);
+  const auto check = [&] {
+    const SampledVolume v = sample_volume(block.view(), block.body, wendland, lattice);
+    for (int k = 0; k < lattice.count[2]; ++k) {
+      const double z = lattice.step * k;
+      if (std::abs(z - 8e-3) < 0.05e-3) continue;
+      const auto at = static_cast<std::size_t>(20 + lattice.count[0] * (20 + lattice.count[1] * k));
+      EXPECT_EQ(v.body[at], z > 8e-3 ? 1 : 0) << z;
+    }
+  };
+  check();
+  for (auto* column : {&block.x, &block.y, &block.z}) std::ranges::reverse(*column);
+  std::ranges::reverse(block.body);
+  check();
+}
+
 TEST(Volume, EllipsoidsAreDrawnOutAsTheirMetricSays) {
   Block one(1);
   std::vector<double> xx{1 / (4e-6)}, yy{1 / (1e-6)}, zero{0.0};  // semi-axes 2, 1, 1 mm
