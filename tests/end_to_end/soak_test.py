@@ -16,7 +16,7 @@ MINUTES = float(os.environ.get("EJECTA_SOAK_MINUTES", 60))
 SAMPLES = 720
 # The rings bounce within the first 0.2 s of a minute's run and ring on ever after: all steps cost the same.
 VALUES = {"time.end": "60 s", "resolution.spacing": "4mm", "run.threads": 1, "output.snapshots": 0,
-          "output.history_interval": "1 ms", "output.checkpoint_interval": "20 s", "insitu.every": '["10 s wall"]',
+          "output.checkpoint_interval": "20 s", "insitu.every": '["10 s wall"]',
           "insitu.image_width": 640, "insitu.image_height": 360, "insitu.max_share": 0.5}
 
 
