@@ -103,7 +103,7 @@ struct EllipsoidalSupport {
 
   struct Pair {
     V along[Dim];  ///< grad_i W_ij
-    V moment;      ///< |dW/deta| at eta_i = |H_i x|, without the norm of the kernel
+    V moment;      ///< |dW/deta| at eta_i = |H_i x|, without the norm of the kernel, over moment_scale
     V weight;      ///< > 0 exactly where one reaches the other
     V mean_eta;
     V reach() const { return weight; }
@@ -121,22 +121,21 @@ struct EllipsoidalSupport {
   Pair pair(const V (&dx)[Dim], V, const S* j) const {
     V image_i[Dim], image_j[Dim];  // G x
     const V eta2_i = quadratic_form<Dim>(metric, dx, image_i), eta2_j = quadratic_form<Dim>(j + R::metric, dx, image_j);
-    const V reciprocal_i = simd::reciprocal_sqrt(V(eta2_i + support_detail::guard<S>));
-    const V reciprocal_j = simd::reciprocal_sqrt(V(eta2_j + support_detail::guard<S>));
-    const V q_i = eta2_i * reciprocal_i, q_j = eta2_j * reciprocal_j;
-    const V slope_i = K::slope_over_q(q_i, reciprocal_i), slope_j = K::slope_over_q(q_j, reciprocal_j);
+    const V q_i = eta_of(eta2_i), q_j = eta_of(eta2_j);
+    const V slope_i = slope_of(q_i), slope_j = slope_of(q_j);
     const V weight_i = simd::rounded(V(slope_i * slope_norm)), weight_j = simd::rounded(V(slope_j * j[R::slope_norm]));
+    constexpr S half = static_cast<S>(0.5 * K::reduced_scale);
     Pair p;
     // As above: products are rounded before the sum.
     for (int a = 0; a < Dim; ++a)
-      p.along[a] = S(-0.5) * (simd::rounded(V(weight_i * image_i[a])) + simd::rounded(V(weight_j * image_j[a])));
-    p.moment = -q_i * slope_i;
-    p.weight = -(weight_i + weight_j);
+      p.along[a] = half * (simd::rounded(V(weight_i * image_i[a])) + simd::rounded(V(weight_j * image_j[a])));
+    p.moment = q_i * slope_i;
+    p.weight = weight_i + weight_j;
     p.mean_eta = S(0.5) * (q_i + q_j);
     return p;
   }
 
-  static constexpr double moment_scale = 1;
+  static constexpr double moment_scale = K::reduced_scale;
 
   /// Monaghan's mu with eta, the mean of both, in place of r/h: mu = (v.x/r) eta/(eta^2 + 0.01).
   Fraction<V> approach(const Pair& p, V r2, V closing, const S*) const {
@@ -166,6 +165,17 @@ struct EllipsoidalSupport {
     return per_norm * j[R::slope_norm] * K::value(V(eta2 * simd::reciprocal_sqrt(V(eta2 + support_detail::guard<S>))));
   }
   double norm(int k) const { return static_cast<double>(slope_norm[k]); }
+
+ private:
+  static V eta_of(V eta2) {
+    return simd::square_root(V(K::reduced_over_r ? V(eta2 + support_detail::guard<S>) : eta2));
+  }
+  /// -W'(q)/q over reduced_scale.
+  static V slope_of(V q) {
+    constexpr S per_support = static_cast<S>(1 / K::support);
+    const V slope = K::reduced_slope(kernel_detail::positive(V(S(1) - per_support * q)));
+    return K::reduced_over_r ? V(slope / q) : slope;
+  }
 };
 
 }  // namespace ejecta
