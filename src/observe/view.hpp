@@ -15,7 +15,7 @@ struct View {
   /// In the picture plane, which is x-z in space.
   Window window(int dimension) const;
 };
-/// What the scene says, or a frame about the body that moves least.
+/// What the scene says, or a frame about the bodies that move least, wider where something is to explode.
 View choose_view(const Scene& scene);
 
 /// Stands over every image.

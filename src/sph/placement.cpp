@@ -20,6 +20,9 @@ std::uint64_t position_key(const Vec<Dim>& x, double spacing) {
 
 namespace {
 
+/// Bodies touch that share no more than this of a particle: what scaling the cloud of a round body may move it by.
+constexpr double touching = 0.25;
+
 /// Whether a point is beyond no face of the boundary.
 template <int Dim>
 bool within(const Boundary& boundary, const Vec<Dim>& x) {
@@ -39,7 +42,7 @@ PointCloud<Dim> points_of(const Scene& scene, const Body& body) {
   const double spacing = scene.spacing * body.spacing_factor;
   if (body.lattice == BodyLattice::shells)
     return lay_shells<Dim>(body, spacing, scene.boundary.any(mirrors), scene.seed);
-  const Lattice lattice = body.lattice == BodyLattice::of_scene     ? scene.lattice
+  const Lattice lattice = body.lattice == BodyLattice::of_scene    ? scene.lattice
                           : body.lattice == BodyLattice::cubic     ? Lattice::cubic
                           : body.lattice == BodyLattice::hexagonal ? Lattice::hexagonal
                                                                    : Lattice::glass;
@@ -112,12 +115,14 @@ std::vector<Placement<Dim>> place_bodies(const Scene& scene, const std::vector<M
     if (placements.empty())
       report(fmt::format("expected room for at least one particle, got none at a spacing of {:.4g} m",
                          scene.spacing * body.spacing_factor));
-    std::size_t shared = 0;
-    for (const Placement<Dim>& s : placements)
-      for (std::size_t other = 0; other < b; ++other)
-        if (inside<Dim>(scene.bodies[other], s.site)) ++shared;
-    if (shared > 0)
-      report(fmt::format("expected a body clear of all earlier ones, got an overlap of {} particles", shared));
+    for (std::size_t other = 0; other < b; ++other) {
+      const auto shared = std::ranges::count_if(placements, [&](const Placement<Dim>& s) {
+        return depth<Dim>(scene.bodies[other], s.site) > touching * s.spacing;
+      });
+      if (shared > 0)
+        report(fmt::format("expected a body clear of all earlier ones, got an overlap of {} particles with {}", shared,
+                           scene.bodies[other].name));
+    }
     auto& group = by_material[static_cast<std::size_t>(body_material[b])];
     group.insert(group.end(), placements.begin(), placements.end());
   }

@@ -1,12 +1,14 @@
 #include "sph/shapes.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
 #include "base/random.hpp"
-#include "sph/glass.hpp"
 #include "scene/shape_geometry.hpp"
+#include "sph/glass.hpp"
 
 namespace ejecta {
 
@@ -45,6 +47,37 @@ bool inside(const Body& body, const Vec<Dim>& x) {
   const Vec<Dim> d = x - first_components<Dim>(body.center);
   return with_shape<Dim>(body, [&](const auto& shape) { return shape.contains(d); });
 }
+
+template <int Dim>
+double depth(const Body& body, const Vec<Dim>& x) {
+  const Vec<Dim> d = x - first_components<Dim>(body.center);
+  double least = std::numeric_limits<double>::infinity();
+  for (const Span<Dim>& span : with_shape<Dim>(body, [](const auto& shape) { return shape.spans(); })) {
+    const double along = (span.projector * d).norm();
+    least = std::min(least, span.high - along);
+    if (span.low > 0) least = std::min(least, along - span.low);
+  }
+  return least;
+}
+
+namespace {
+
+/// Scales all volumes by stretch^Dim. The face of a hole stays where it is.
+template <int Dim>
+Vec<Dim> stretched(const std::vector<Span<Dim>>& spans, double stretch, const Vec<Dim>& d) {
+  Vec<Dim> moved = stretch * d;
+  for (const Span<Dim>& span : spans) {
+    if (span.low == 0) continue;
+    const Vec<Dim> across = span.projector * d;
+    const double before = across.norm(), hole = std::pow(span.low, span.rank);
+    const double after =
+        std::pow(hole + std::pow(stretch, span.rank) * (std::pow(before, span.rank) - hole), 1.0 / span.rank);
+    moved += (after / before - stretch) * across;
+  }
+  return moved;
+}
+
+}  // namespace
 
 template <int Dim>
 PointCloud<Dim> fill(const Body& body, double spacing, Lattice lattice, std::uint64_t seed) {
@@ -92,7 +125,8 @@ PointCloud<Dim> fill(const Body& body, double spacing, Lattice lattice, std::uin
   // shrinking the whole cloud a little makes it exact.
   const double exact = volume(body, Dim) / static_cast<double>(cloud.points.size());
   const double stretch = std::pow(exact / cloud.volume, 1.0 / Dim);
-  for (Vec<Dim>& x : cloud.points) x = center + stretch * (x - center);
+  const auto spans = with_shape<Dim>(body, [](const auto& shape) { return shape.spans(); });
+  for (Vec<Dim>& x : cloud.points) x = center + stretched<Dim>(spans, stretch, x - center);
   cloud.volume = exact;
   return cloud;
 }
@@ -106,5 +140,7 @@ template PointCloud<2> fill<2>(const Body&, double, Lattice, std::uint64_t);
 template PointCloud<3> fill<3>(const Body&, double, Lattice, std::uint64_t);
 template bool inside<2>(const Body&, const Vec<2>&);
 template bool inside<3>(const Body&, const Vec<3>&);
+template double depth<2>(const Body&, const Vec<2>&);
+template double depth<3>(const Body&, const Vec<3>&);
 
 }  // namespace ejecta

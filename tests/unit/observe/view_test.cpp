@@ -27,6 +27,23 @@ TEST(View, IsAFrameAboutTheBodyThatMovesLeast) {
   EXPECT_DOUBLE_EQ(view.height, 0.16);
 }
 
+TEST(View, HoldsAllBodiesThatMoveLeast) {
+  Scene scene;
+  scene.dimension = 2;
+  Body plate;
+  plate.shape = BodyShape::rectangle;
+  plate.size = {0.6, 0.1, 7};
+  plate.center = {0, 0.5, 0};
+  scene.bodies = {ball(0.1, {0, 0, 0}, {0, 0, 0}), plate, ball(0.1, {9, 9, 0}, {1, 0, 0})};
+  View view = choose_view(scene);
+  EXPECT_NEAR(view.center[0], 0, 1e-15);
+  EXPECT_NEAR(view.center[1], 0.225, 1e-15);
+  EXPECT_EQ(view.center[2], 0);
+  EXPECT_NEAR(view.width, 1.6 * 0.65, 1e-15);
+  scene.detonators.emplace_back();
+  EXPECT_NEAR(choose_view(scene).width, 3 * 0.65, 1e-15);
+}
+
 TEST(View, OfABoxIsAsWideAsItsLongestSideInTheDimensionsThereAre) {
   Scene scene = two_balls();
   scene.bodies[1].shape = BodyShape::box;

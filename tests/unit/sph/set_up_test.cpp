@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -44,6 +45,38 @@ TEST(SetUp, EveryParticleHasAFlawAndTheyDiffer) {
     ++strains[flaw];
   }
   EXPECT_GT(strains.size(), 400u);
+}
+
+/// A charge in a tube, both on lattices that are scaled to their volumes.
+std::string tube_about_disc(double bore, double wall, double spacing, bool tube_first) {
+  const std::string disc =
+      fmt::format("[[bodies]]\nname = \"disc\"\nmaterial = \"copper\"\nshape = \"disc\"\nradius = \"{} mm\"\n", bore);
+  const std::string tube = fmt::format(
+      "[[bodies]]\nname = \"tube\"\nmaterial = \"iron\"\nshape = \"disc\"\ninner_radius = \"{} mm\"\nradius = \"{} "
+      "mm\"\n",
+      bore, bore + wall);
+  return fmt::format(
+      "[scene]\nname = \"tube\"\ndimension = 2\n[resolution]\nspacing = \"{} mm\"\n[time]\nend = \"1 us\"\n{}", spacing,
+      tube_first ? tube + disc : disc + tube);
+}
+
+TEST(SetUp, ABodyMayFillTheHoleOfAnother) {
+  for (const double bore : {6, 10, 17, 25})
+    for (const double wall : {2, 5, 15})
+      for (const double spacing : {0.8, 0.5})
+        for (const bool tube_first : {false, true})
+          EXPECT_NO_THROW(start<2>(tube_about_disc(bore, wall, spacing, tube_first)))
+              << bore << " " << wall << " " << spacing;
+  try {
+    start<2>(tube_about_disc(10, 5, 0.8, false), {"bodies.tube.inner_radius=9.2 mm"});
+    FAIL() << "an overlap of a spacing was taken";
+  } catch (const InputError& error) {
+    EXPECT_NE(
+        std::string(error.what()).find("bodies.tube: expected a body clear of all earlier ones, got an overlap of"),
+        std::string::npos)
+        << error.what();
+    EXPECT_NE(std::string(error.what()).find("particles with disc"), std::string::npos) << error.what();
+  }
 }
 
 TEST(SetUp, BodiesHaveTheirMassVelocityAndState) {

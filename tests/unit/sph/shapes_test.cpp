@@ -158,5 +158,33 @@ TEST(Shapes, AHoleIsLeftOut) {
   for (const auto& x : cloud.points) EXPECT_GT((x - Vec<2>(1, 2)).norm(), 0.58);
 }
 
+TEST(Shapes, TheFaceOfAHoleStaysWhereItIsWhenACloudIsScaled) {
+  for (const Lattice lattice : {Lattice::cubic, Lattice::hexagonal})
+    for (const double hole : {0.5, 0.75, 0.9})
+      for (const double spacing : {0.05, 0.04, 0.03}) {
+        Body shell = sphere(1), ring = disc(1), tube = cylinder(1, 0.5, {0, 0, 1});
+        for (Body* body : {&shell, &ring, &tube}) body->inner_radius = hole;
+        const auto in_space = fill<3>(shell, spacing, lattice), along = fill<3>(tube, spacing, lattice);
+        const auto in_plane = fill<2>(ring, spacing, lattice);
+        for (const auto& x : in_space.points) ASSERT_GE((x - Vec<3>(1, 2, 3)).norm(), hole * (1 - 1e-12));
+        for (const auto& x : along.points) ASSERT_GE((x - Vec<3>(1, 2, 3)).head<2>().norm(), hole * (1 - 1e-12));
+        for (const auto& x : in_plane.points) ASSERT_GE((x - Vec<2>(1, 2)).norm(), hole * (1 - 1e-12));
+        EXPECT_NEAR(filled(in_space), volume(shell, 3), 1e-12);
+        EXPECT_NEAR(filled(along), volume(tube, 3), 1e-12);
+        EXPECT_NEAR(filled(in_plane), volume(ring, 2), 1e-12);
+      }
+}
+
+TEST(Shapes, DepthIsTheDistanceFromTheNearestFace) {
+  Body tube = cylinder(1, 3, {0, 0, 1});
+  tube.inner_radius = 0.6;
+  EXPECT_NEAR((depth<3>(tube, {1.7, 2, 3})), 0.1, 1e-15);
+  EXPECT_NEAR((depth<3>(tube, {1, 2.95, 3})), 0.05, 1e-15);
+  EXPECT_NEAR((depth<3>(tube, {1.8, 2, 4.48})), 0.02, 1e-15);
+  EXPECT_NEAR((depth<3>(tube, {1.5, 2, 3})), -0.1, 1e-15);
+  EXPECT_NEAR((depth<3>(sphere(0.5), {1, 2, 3})), 0.5, 1e-15);
+  EXPECT_NEAR((depth<2>(box({1, 2, 0}, true), {1.4, 2})), 0.1, 1e-15);
+}
+
 }  // namespace
 }  // namespace ejecta
