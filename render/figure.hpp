@@ -27,10 +27,9 @@ struct Figure {
 };
 
 /// Draws what there is data for: figures/compaction.png (from figures/compaction.csv and figures/crush_curve.csv),
-/// fragment_distribution.png, largest_fragment.png and energy.png (from fragment_distribution.csv,
-/// largest_fragment.csv and history.csv), probe_<name>.png (from probe_<name>.csv: velocity, pressure and strain, as
-/// far as they are there, and what was measured of them). Plots without data are left out; without gnuplot each says
-/// so.
+/// those of fragments (fragment_figures.hpp), energy.png (from history.csv), probe_<name>.png (from probe_<name>.csv:
+/// velocity, pressure and strain, as far as they are there, and what was measured of them). Plots without data are left
+/// out; without gnuplot each says so.
 std::vector<Figure> make_figures(const std::filesystem::path& run_folder, const FigureSettings& settings);
 
 }  // namespace ejecta

@@ -136,6 +136,12 @@ int main(int argc, char** argv) {
   CLI::App* movie = app.add_subcommand("movie", "make the movies of a run folder again");
   movie->add_option("folder", folder, "run folder")->required();
   movie->add_option("--fps", frames_per_second, "frames per second (default: 24, fewer for short movies)");
+  std::vector<std::string> folders;
+  std::string fragments_out = "runs/fragments";
+  CLI::App* fragments = app.add_subcommand(
+      "fragments", "draw the fragments of several runs of a scene as a band, beside what was caught and what theory expects");
+  fragments->add_option("folders", folders, "run folders")->required();
+  fragments->add_option("--out", fragments_out, "folder")->capture_default_str();
   CLI::App* replay = app.add_subcommand("replay", "show checkpoints and snapshots of a run folder to pipelines again");
   ReplayOptions replay_options;
   ExportOptions export_options;
@@ -183,6 +189,7 @@ int main(int argc, char** argv) {
     if (*check) return check_command(options.scene_file, options.overrides);
     if (*control) return control_command(folder, words);
     if (*serve) return serve_command(serve_options);
+    if (*fragments) return fragments_command(folders, fragments_out);
     if (*movie) return movie_command(folder, frames_per_second);
     if (!at.empty()) replay_options.states.at = export_options.states.at = parse_quantity(at, "s");
     if (*replay) return replay_command(replay_options);

@@ -129,6 +129,14 @@ void conclude(const Simulation& sim, const Frames& frames, const Job& job, Outpu
     if (const std::string& measured = sim.scene.fragments.measured; !measured.empty())
       write("fragments_measured.csv",
             [&](const fs::path& file) { write_measured_fragments(file, measured_masses(measured)); });
+    const auto predictions = predict_fragments(sim.scene.fragments.theory, context.density, context.dimension);
+    if (!predictions.empty())
+      write("fragment_theory.csv",
+            [&](const fs::path& file) { write_fragment_theory(file, predictions, context); });
+    for (const FragmentPrediction& p : predictions)
+      spdlog::info("{}: {:.0f} to {:.0f} pieces of {}, of {:.2g} to {:.2g} % of it in the mean", p.who,
+                   context.body_mass[context.target] / p.heaviest, context.body_mass[context.target] / p.lightest,
+                   context.bodies[context.target], 100 * context.share(p.lightest), 100 * context.share(p.heaviest));
     with_particles(sim, [&](const auto& sph) {
       for (const FragmentSensitivity& s : fragment_sensitivity(fragment_input(sph), sph.scene.fragments))
         spdlog::info("fragments at linking length {:.2f}: {}, largest {:.2f} %, dust {:.1f} % of the {}",

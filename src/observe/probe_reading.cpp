@@ -42,7 +42,7 @@ std::vector<CsvColumn> columns_of(const Probe& probe, const Particles<Dim>* p) {
     list.push_back({"plastic strain", "1"});
   }
   if (p && p->has(Field::damage)) list.push_back({"damage", "1"});
-  if (probe.kind == ProbeKind::tracer)
+  if (probe.rides())
     for (std::size_t a = 0; a < Dim; ++a) list.push_back({place[a], "m"});
   return list;
 }
@@ -149,7 +149,7 @@ std::optional<ProbeReading> read_particles(const Sph<Dim>& sph, const Probe& pro
   const Particles<Dim>& p = sph.particles;
   Vec<Dim> x = first_components<Dim>(probe.at);
   std::optional<std::size_t> near;
-  if (probe.kind == ProbeKind::tracer) {
+  if (probe.rides()) {
     const auto ids = p.label(Label::id);
     near = static_cast<std::size_t>(std::ranges::find(ids, id) - ids.begin());
     if (*near == p.size()) return std::nullopt;
@@ -162,13 +162,21 @@ std::optional<ProbeReading> read_particles(const Sph<Dim>& sph, const Probe& pro
   if (fit.values.empty() || (probe.kind == ProbeKind::point && fit.fill < filled)) return std::nullopt;
   ProbeReading reading{std::move(fit.values)};
   reading.gradient.template topLeftCorner<Dim, Dim>() = fit.gradient;
-  if (probe.kind == ProbeKind::tracer)
+  if (probe.rides())
     for (int a = 0; a < Dim; ++a) reading.values.push_back(x[a]);
   return reading;
 }
 
+/// A particle of the surface that a beam meets.
+struct Met {
+  std::size_t particle;
+  double distance;  ///< from the beginning of the beam to the front of the particle, along it [m]
+  double aside;     ///< of its centre from the axis of the beam [m]
+};
+
+/// What of the beam's particles is nearest, to half a particle.
 template <int Dim>
-ProbeReading read_beam(const Sph<Dim>& sph, const Probe& probe) {
+std::vector<Met> surface_met(const Sph<Dim>& sph, const Probe& probe) {
   const Particles<Dim>& p = sph.particles;
   const Vec<Dim> begin = first_components<Dim>(probe.at);
   const Vec<Dim> along = first_components<Dim>(probe.direction).normalized();
@@ -178,23 +186,30 @@ ProbeReading read_beam(const Sph<Dim>& sph, const Probe& probe) {
   const auto size = [&](std::size_t i) {
     return std::pow(p.column(Field::mass)[i] / p.column(Field::density)[i], 1.0 / Dim);
   };
-  std::vector<std::pair<double, std::size_t>> in_beam;  // front of a particle along the beam
+  std::vector<Met> in_beam;
   double first = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (body && p.label(Label::body)[i] != *body) continue;
     const Vec<Dim> d = p.vector(Field::position, i) - begin;
-    const double ahead = d.dot(along);
-    if (ahead < 0 || ahead > range || (d - ahead * along).norm() > spot) continue;
-    in_beam.emplace_back(ahead - 0.5 * size(i), i);
-    first = std::min(first, in_beam.back().first);
+    const double ahead = d.dot(along), aside = (d - ahead * along).norm();
+    if (ahead < 0 || ahead > range || aside > spot) continue;
+    in_beam.push_back({i, ahead - 0.5 * size(i), aside});
+    first = std::min(first, in_beam.back().distance);
   }
+  std::erase_if(in_beam, [&](const Met& met) { return met.distance > first + 0.5 * size(met.particle); });
+  return in_beam;
+}
+
+template <int Dim>
+ProbeReading read_beam(const Sph<Dim>& sph, const Probe& probe) {
+  const Particles<Dim>& p = sph.particles;
+  const Vec<Dim> along = first_components<Dim>(probe.direction).normalized();
   double mass = 0, velocity = 0, distance = 0;
-  for (const auto& [front, i] : in_beam) {
-    if (front > first + 0.5 * size(i)) continue;
-    const double m = p.column(Field::mass)[i];
+  for (const Met& met : surface_met(sph, probe)) {
+    const double m = p.column(Field::mass)[met.particle];
     mass += m;
-    velocity -= m * p.vector(Field::velocity, i).dot(along);
-    distance += m * front;
+    velocity -= m * p.vector(Field::velocity, met.particle).dot(along);
+    distance += m * met.distance;
   }
   if (mass == 0) return {{nothing, nothing}};
   return {{velocity / mass, distance / mass}};
@@ -205,6 +220,12 @@ ProbeReading read_beam(const Sph<Dim>& sph, const Probe& probe) {
 std::optional<Mount> mount(const Simulation& sim, const Probe& probe) {
   std::optional<Mount> found;
   with_particles(sim, [&]<int Dim>(const Sph<Dim>& sph) {
+    if (probe.kind == ProbeKind::surface) {
+      const std::vector<Met> met = surface_met(sph, probe);
+      const auto middle = std::ranges::min_element(met, {}, &Met::aside);
+      if (middle != met.end()) found = {sph.particles.label(Label::id)[middle->particle], middle->distance};
+      return;
+    }
     const Vec<Dim> x = first_components<Dim>(probe.at);
     if (const auto near = nearest_particle(sph.particles, x, label_of(sph, probe)))
       found = {sph.particles.label(Label::id)[*near], (sph.particles.vector(Field::position, *near) - x).norm()};

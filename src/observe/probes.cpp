@@ -48,7 +48,7 @@ std::vector<double> values_of(const Simulation& sim, const Probe& probe, const P
   double along = 0;
   for (int a = 0; a < sim.scene.dimension; ++a)
     along += direction(probe)[a] * reading.values[static_cast<std::size_t>(2 + a)];
-  values.push_back(along);
+  values.push_back(probe.beam() ? -along : along);
   return values;
 }
 
@@ -86,15 +86,18 @@ std::vector<std::string> place_probes(Simulation& sim) {
   std::vector<std::string> problems, odd;
   for (const Probe& probe : sim.scene.probes) {
     if (!probe.measured.empty()) check_measured_trace(probe.measured, columns_of(sim, probe));
-    const std::string key = fmt::format("{}: probes.{}.at", sim.scene.file, probe.name);
+    const std::string key = fmt::format("{}: probes.{}.at", probe.origin, probe.name);
     const auto nearest = mount(sim, probe);
     const std::string where =
         !nearest ? "no particles"
                  : fmt::format("the nearest particle{} {} away", probe.body.empty() ? "" : " of " + probe.body,
                                format_quantity(nearest->distance, "m"));
-    if (probe.kind == ProbeKind::tracer) {
+    if (probe.rides()) {
       if (particle_of(sim, probe) >= 0) continue;
-      if (!nearest || nearest->distance > 2 * sim.scene.spacing)
+      if (probe.kind == ProbeKind::surface && !nearest)
+        problems.push_back(fmt::format("{}: expected a beam that meets matter{}, got one that meets nothing", key,
+                                       probe.body.empty() ? "" : " of " + probe.body));
+      else if (!nearest || (probe.kind == ProbeKind::tracer && nearest->distance > 2 * sim.scene.spacing))
         problems.push_back(fmt::format("{}: expected a place within matter, got {}", key, where));
       else
         Memory(sim.notes, probe)[particle] = nearest->id;

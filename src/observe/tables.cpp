@@ -34,6 +34,8 @@ FragmentContext fragment_context(const Simulation& sim) {
     const auto first = std::ranges::find(label, static_cast<std::int32_t>(context.target)) - label.begin();
     context.smallest =
         sph.scene.fragments.min_particles * sph.particles.column(Field::mass)[static_cast<std::size_t>(first)];
+    const auto material = sph.particles.label(Label::material)[static_cast<std::size_t>(first)];
+    context.density = sph.materials[static_cast<std::size_t>(material)].bulk_density();
     for (const Body& b : sph.scene.bodies) context.bodies.push_back(b.name);
     for (const Material& m : sph.materials) context.materials.push_back(m.name);
   });

@@ -85,6 +85,26 @@ void write_fragment_distribution(const std::filesystem::path& file, const Fragme
             rows);
 }
 
+void write_fragment_theory(const std::filesystem::path& file, std::span<const FragmentPrediction> predictions,
+                           const FragmentContext& context) {
+  const double whole = context.body_mass[context.target];
+  std::vector<CsvColumn> columns{{"mass", context.dimension == 2 ? "kg/m" : "kg"}, {"mass fraction", context.unit()}};
+  for (const FragmentPrediction& p : predictions)
+    columns.insert(columns.end(), {{p.who + ", fewest", "1"}, {p.who + ", most", "1"}});
+  constexpr int samples = 200;
+  std::vector<std::vector<CsvCell>> rows;
+  for (int k = 0; k <= samples; ++k) {
+    const double mass = whole * std::pow(0.1 * context.smallest / whole, 1 - static_cast<double>(k) / samples);
+    std::vector<CsvCell> row{mass, context.share(mass)};
+    for (const FragmentPrediction& p : predictions) {
+      const PieceRange pieces = pieces_at_least(mass, p, whole, context.dimension);
+      row.insert(row.end(), {pieces.fewest, pieces.most});
+    }
+    rows.push_back(std::move(row));
+  }
+  write_csv(file, columns, rows);
+}
+
 void write_measured_fragments(const std::filesystem::path& file, std::vector<double> masses) {
   std::ranges::sort(masses, std::greater<>());
   std::vector<std::vector<CsvCell>> rows;

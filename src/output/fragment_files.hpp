@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 
+#include "analysis/fragment_theory.hpp"
 #include "analysis/fragments.hpp"
 #include "output/csv.hpp"
 
@@ -17,6 +18,7 @@ struct FragmentContext {
   std::vector<double> body_mass;               ///< kg (kg/m in plane strain), by label
   std::size_t target = 0;                      ///< label of the body that mass fractions refer to
   double smallest = 0;                         ///< lightest fragment of the target that is counted [kg, kg/m]
+  double density = 0;                          ///< of the target's material at rest [kg/m^3]
 
   /// Share of one body's mass that a mass [kg] of its matter is.
   double share(double mass, std::size_t body) const { return mass / body_mass[body]; }
@@ -38,6 +40,11 @@ std::vector<BodyFragments> fragments_by_body(const FragmentTable& table, const F
 /// dust, which is everything else (mass and velocity only). "mass fraction" counts matter of the target only.
 /// Throws OutputError if it cannot be written; so do the functions below.
 void write_fragments(const std::filesystem::path& file, const FragmentTable& table, const FragmentContext& context);
+
+/// fragment_theory.csv: mass m, m / mass of the target, and for each prediction the fewest and the most fragments of at
+/// least m that it expects.
+void write_fragment_theory(const std::filesystem::path& file, std::span<const FragmentPrediction> predictions,
+                           const FragmentContext& context);
 
 /// fragment_distribution.csv: mass m of the target's matter in a fragment, m / mass of the target, number of fragments
 /// that hold at least as much; heaviest first. Fragments of other bodies are left out.

@@ -183,8 +183,9 @@ void check_triggers(const Scene& scene, const Report& report) {
 void check_probe(const Scene& scene, const Probe& probe, const std::string& path, const Report& report) {
   if (scene.dimension == 2 && ((is_set(probe.at[2]) && probe.at[2] != 0) || probe.direction[2] != 0))
     report(path + (probe.direction[2] != 0 ? ".direction" : ".at"), "expected no z component in 2D");
-  const bool beam = probe.kind == ProbeKind::velocimeter;
-  if (beam && !probe.directed()) report(path + ".direction", "missing: a velocimeter needs it");
+  const bool beam = probe.beam();
+  if (beam && !probe.directed())
+    report(path + ".direction", fmt::format("missing: a {} needs it", name_of(probe.kind)));
   if (!beam && is_set(probe.spot)) report(path + ".spot", fmt::format("a {} has none", name_of(probe.kind)));
   if (!beam && is_set(probe.range)) report(path + ".range", fmt::format("a {} has none", name_of(probe.kind)));
   if (probe.kind != ProbeKind::point && scene.numerics.scheme == SchemeKind::fvm)
@@ -198,6 +199,20 @@ void check_probe(const Scene& scene, const Probe& probe, const std::string& path
   if (probe.window > between * (1 + 1e-9))
     report(path + ".window", fmt::format("expected no more than the interval between rows, {}, got {}",
                                          format_quantity(between, "s"), format_quantity(probe.window, "s")));
+}
+
+void check_theory(const FragmentTheory& theory, const std::string& path, const Report& report) {
+  for (const auto& [key, range] :
+       {std::pair("fracture_energy", &theory.fracture_energy), std::pair("flow_stress", &theory.flow_stress),
+        std::pair("mott_gamma", &theory.mott_gamma)})
+    if (range->size() > 2 || !std::ranges::is_sorted(*range))
+      report(fmt::format("{}.{}", path, key),
+             fmt::format("expected one number, or the lower and the upper end of a range, got {}",
+                         fmt::join(*range, ", ")));
+  if (theory.flow_stress.empty() != theory.mott_gamma.empty())
+    report(path + (theory.flow_stress.empty() ? ".flow_stress" : ".mott_gamma"), "missing: Mott's prediction needs it");
+  if (theory.any() && !is_set(theory.strain_rate)) report(path + ".strain_rate", "missing: the predictions need it");
+  if (theory.any() && !is_set(theory.thickness)) report(path + ".thickness", "missing: the predictions need it");
 }
 
 /// What Riemann problems between particles cannot do.
@@ -264,6 +279,7 @@ void check_scene(const Scene& scene, const Document& document, Problems& problem
     check_detonator(scene, scene.detonators[k], element_path("detonators", k), report);
   check_boundary(scene, report);
   check_godunov(scene.numerics, report);
+  check_theory(scene.fragments.theory, "fragments.theory", report);
   if (!scene.fragments.measured.empty() && scene.dimension == 2)
     report("fragments.measured", "expected none in 2D, where masses are per metre");
   if (const std::string& target = scene.fragments.target; !target.empty() && !names.contains(target))

@@ -173,9 +173,9 @@ void describe(Describer& d, InSitu& i) {
            "frames are left out where they would take more than this share of the wall time; 1: never");
   d.integer("image_width", i.image_width, between(64, 8192), "pixels");
   d.integer("image_height", i.image_height, between(64, 8192), "pixels");
-  d.triple("view_center", i.view_center, "m", "middle of the images; else the centre of the bodies at rest");
+  d.triple("view_center", i.view_center, "m", "middle of the images; else of the bodies that move least");
   d.number("view_size", i.view_size, "m", positive,
-           "visible width at least; else 1.6 times the extent of the slowest body");
+           "visible width at least; else 1.6 times the extent of the slowest bodies, 3 times with detonators");
   d.number("view_height", i.view_height, "m", positive, "visible height at least; else view_size");
   d.map("ranges", i.ranges, "<field>", "field name = fixed colour range",
         [&](const std::string& field, ColourRange& r) {
@@ -189,23 +189,34 @@ void describe(Describer& d, InSitu& i) {
 
 void describe(Describer& d, Probe& p) {
   d.text("name", p.name, "of its table probe_<name>.csv and its figure").required = true;
-  d.choice("kind", p.kind,
-           "point: fixed in space; tracer: rides on the matter that was there at the start; velocimeter: a beam that "
-           "sees the first surface it meets");
-  d.triple("at", p.at, "m", "where it is at the start; of a velocimeter: where the beam begins").required = true;
+  d.choice(
+      "kind", p.kind,
+      "point: fixed in space; tracer: rides on the matter that was there at the start; surface: rides on the matter "
+      "that a beam meets first at the start; velocimeter: a beam that sees the first surface it meets");
+  d.triple("at", p.at, "m", "where it is at the start; of a surface or velocimeter: where the beam begins").required =
+      true;
   d.text("body", p.body, "name of the body that it reads, whatever else is there; else any");
   d.triple("direction", p.direction, "1",
-           "of the beam of a velocimeter, whose velocity counts towards its beginning; of the others adds the velocity "
+           "of the beam of a surface or velocimeter, whose velocity counts towards its beginning; of the others adds "
+           "the velocity "
            "along it, of a tracer also the strain");
-  d.number("spot", p.spot, "m", positive, "velocimeter: radius of the beam; else resolution.spacing");
-  d.number("range", p.range, "m", positive,
-           "velocimeter: how far the beam sees, such as to the axis of a tube; else without end");
+  d.number("spot", p.spot, "m", positive, "radius of a beam; else resolution.spacing");
+  d.number("range", p.range, "m", positive, "how far a beam sees, such as to the axis of a tube; else without end");
   d.number("window", p.window, "s", non_negative, "values are means over so long before each row; 0: of that moment");
   d.number("interval", p.interval, "s", positive,
            "between rows, each at the first step from then on; else output.history_interval");
   d.text("measured", p.measured,
          "CSV file beside the scene, drawn into the figure: time [s], and columns named as those of the probe");
   d.number("measured_delay", p.measured_delay, "s", any_number, "added to the times of the measured trace");
+  d.origin(p.origin);
+}
+
+void describe(Describer& d, FragmentTheory& t) {
+  d.number("strain_rate", t.strain_rate, "1/s", positive, "of the wall when it breaks: its speed over its radius");
+  d.number("thickness", t.thickness, "m", positive, "of the wall when it breaks");
+  d.numbers("fracture_energy", t.fracture_energy, "J/m^2", positive, "Grady and Kipp: energy of a new crack");
+  d.numbers("flow_stress", t.flow_stress, "Pa", positive, "Mott: yield stress when it breaks");
+  d.numbers("mott_gamma", t.mott_gamma, "1", positive, "Mott: one over the scatter of the strain at which it breaks");
 }
 
 void describe(Describer& d, FragmentSettings& f) {
@@ -221,6 +232,9 @@ void describe(Describer& d, FragmentSettings& f) {
          "slowest about the centre of mass");
   d.text("measured", f.measured,
          "CSV file beside the scene, drawn into the figures: mass [kg] of the fragments that were caught");
+  d.section("theory",
+            "how a wall that stretches breaks, drawn into the figures: lists of one number, or of both ends of a range",
+            [&] { describe(d, f.theory); });
 }
 
 void describe(Describer& d, OutputSettings& o) {
@@ -254,7 +268,9 @@ void describe(Describer& d, Scene& s, const std::vector<SceneSection>& sections)
   d.list("bodies", s.bodies, !blast, "one body, filled at set-up", [&](Body& body) { describe(d, body); });
   d.list("detonators", s.detonators, false, "lights what it touches of the explosives",
          [&](Detonator& detonator) { describe(d, detonator); });
-  if (s.charge) d.section("charge", "a ball (in 2D a disc) of hot dense gas: its blast is followed", [&] { describe(d, *s.charge); });
+  if (s.charge)
+    d.section("charge", "a ball (in 2D a disc) of hot dense gas: its blast is followed",
+              [&] { describe(d, *s.charge); });
   if (s.gas) d.section("gas", "fills the boundary box wherever no body is", [&] { describe(d, *s.gas); });
   d.section("numerics", "how the equations are solved");
   describe(d, s.numerics);
@@ -267,8 +283,7 @@ void describe(Describer& d, Scene& s, const std::vector<SceneSection>& sections)
     d.section(section.first, about == sections.end() ? "" : about->doc, [&] { section.second->describe(d); });
   }
   d.section("insitu", "pictures while the run goes on", [&] { describe(d, s.insitu); });
-  d.section("fragments", "connected pieces and their masses");
-  describe(d, s.fragments);
+  d.section("fragments", "connected pieces and their masses", [&] { describe(d, s.fragments); });
   d.list("probes", s.probes, false, "gauges and velocimeters, read while the run goes on",
          [&](Probe& probe) { describe(d, probe); });
   d.section("output", "files");

@@ -33,7 +33,7 @@ constexpr auto enum_names(BodyLattice) {
 constexpr auto enum_names(OnError) { return std::to_array<std::string_view>({"warn", "disable", "abort"}); }
 constexpr auto enum_names(Switch) { return std::to_array<std::string_view>({"auto", "false", "true"}); }
 constexpr auto enum_names(ProbeKind) {
-  return std::to_array<std::string_view>({"point", "tracer", "velocimeter"});
+  return std::to_array<std::string_view>({"point", "tracer", "surface", "velocimeter"});
 }
 constexpr auto enum_names(FragmentLink) { return std::to_array<std::string_view>({"auto", "spacing", "support"}); }
 

@@ -148,6 +148,18 @@ struct InSitu {
   std::map<std::string, ColourRange> ranges;  ///< field name -> fixed colour range in SI
 };
 
+/// What the figures of fragments show beside those computed: how a wall that stretches breaks (analysis/fragment_theory.hpp).
+/// Lists of numbers are one value, or the ends of a range.
+struct FragmentTheory {
+  double strain_rate = unset;           ///< 1/s; when it breaks
+  double thickness = unset;             ///< m; of the wall then
+  std::vector<double> fracture_energy;  ///< J/m^2; empty: no prediction by Grady and Kipp
+  std::vector<double> flow_stress;      ///< Pa; empty: none by Mott
+  std::vector<double> mott_gamma;       ///< 1 over the scatter of the strain at fracture
+
+  bool any() const { return !fracture_energy.empty() || !flow_stress.empty(); }
+};
+
 struct FragmentSettings {
   bool enabled = false;
   FragmentLink link = FragmentLink::automatic;  ///< automatic: support in ASPH, else spacing
@@ -157,6 +169,7 @@ struct FragmentSettings {
   int min_particles = 8;           ///< smaller groups count as dust
   std::string target;              ///< body whose pieces count; empty: the body struck (sph/outset.hpp)
   std::string measured;            ///< CSV file of measured masses, for the figure; absolute once read
+  FragmentTheory theory;
 };
 
 struct OutputSettings {

@@ -86,7 +86,17 @@ Quantities Sph<Dim>::quantities() const {
 
 template <int Dim>
 std::vector<Remark> Sph<Dim>::remarks_at_start() const {
-  return particles.has(Field::lighting_time) ? unlit(*this) : std::vector<Remark>{};
+  std::vector<Remark> list = particles.has(Field::lighting_time) ? unlit(*this) : std::vector<Remark>{};
+  if (scene.fragments.enabled) {
+    const std::size_t target = target_body(scene, outset.bodies);
+    const Material& material = materials[static_cast<std::size_t>(body_material[target])];
+    if (material.solid() && !material.damage && !material.breaks_in_shear() && !material.stretches())
+      list.push_back({fmt::format("fragments of {}: {} has no damage: where it comes apart is decided by "
+                                  "particles that lose their neighbours, not by cracks",
+                                  scene.bodies[target].name, material.name),
+                      true});
+  }
+  return list;
 }
 
 template <int Dim>

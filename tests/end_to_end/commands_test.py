@@ -28,7 +28,7 @@ class Commands(RunTest):
     def test_help_and_info(self):
         overview = ejecta("--help")
         self.assertEqual(overview.returncode, 0)
-        for command in ("run", "check", "reference", "describe", "control", "movie", "replay", "info"):
+        for command in ("run", "check", "reference", "describe", "control", "movie", "fragments", "replay", "info"):
             self.assertIn(command, overview.stdout)
             result = ejecta(command, "--help")
             self.assertEqual(result.returncode, 0)

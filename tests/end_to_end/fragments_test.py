@@ -1,8 +1,9 @@
 """What counts as a fragment, and of what: the target's pieces over the target's mass, across periodic faces, body by
 body; what particles remember of their peaks; which momenta are judged."""
 import json
+import math
 import unittest
-from ejecta_run import RunTest, Snapshot, Table, ejecta, settings, summary
+from ejecta_run import SOURCE, RunTest, Snapshot, Table, ejecta, settings, summary
 
 # An iron ball shatters a small basalt disc.
 IMPACT = """[scene]
@@ -53,6 +54,8 @@ enabled = true
 enabled = false
 """
 
+RING = SOURCE / "inputs/expanding_ring.toml"
+
 
 class Fragments(RunTest):
     def scene(self, text):
@@ -91,6 +94,56 @@ class Fragments(RunTest):
         refused = ejecta("run", scene, "--out", self.folder / "none", *settings({"fragments.target": "bal"}))
         self.assertEqual(refused.returncode, 2)
         self.assertIn('fragments.target: expected the name of a body (ball, target), got "bal"', refused.stderr)
+
+    def test_theory_and_several_runs_in_one_picture(self):
+        theory = {"fragments.theory.strain_rate": "1e4 1/s", "fragments.theory.thickness": "5 mm",
+                  "fragments.theory.fracture_energy": '["10 kJ/m^2", "40 kJ/m^2"]',
+                  "fragments.theory.flow_stress": '["1 GPa"]', "fragments.theory.mott_gamma": "[10, 40]"}
+        theory |= {"resolution.spacing": "1 mm", "insitu.enabled": "false"}
+        runs = [self.run_scene(RING, f"seed_{seed}", theory | {"random.seed": seed}) for seed in (1, 2)]
+        table = Table(runs[0] / "fragment_theory.csv")
+        self.assertEqual(table.names[2:], ["Mott, fewest", "Mott, most", "Grady and Kipp, fewest", "Grady and Kipp, most"])
+        mass, density = summary(runs[0])["bodies"]["ring"]["mass"], 7900
+        spacings = [(24 * energy / (density * 1e8)) ** (1 / 3) for energy in (1e4, 4e4)]
+        lightest, heaviest = (density * 5e-3 * s for s in spacings)
+        self.assertIn(f"Grady and Kipp: {mass / heaviest:.0f} to {mass / lightest:.0f} pieces of ring", (runs[0] / "run.log").read_text())
+        m, few, most = (table.numbers(name)[0] for name in ("mass", "Grady and Kipp, fewest", "Grady and Kipp, most"))
+        self.assertAlmostEqual(few, mass / heaviest * math.exp(-m / heaviest), delta=1e-6 * few)
+        self.assertAlmostEqual(most, mass / lightest * math.exp(-m / lightest), delta=1e-6 * most)
+        for name in ("Mott", "Grady and Kipp"):
+            self.assertTrue(all(a <= b for a, b in zip(table.numbers(name + ", fewest"), table.numbers(name + ", most"))))
+        self.assertIn("fragment_theory.csv", (runs[0] / "figures/fragment_distribution.gp").read_text())
+
+        drawn = ejecta("fragments", *runs, "--out", self.folder / "band")
+        self.assertEqual(drawn.returncode, 0, drawn.stderr)
+        self.assertTrue((self.folder / "band/figures/fragment_runs.png").is_file())
+        shares = [sorted((s for s in Table(run / "fragments.csv").numbers("mass fraction")[:-1] if s > 0)) for run in runs]
+        self.assertNotEqual(*shares)
+        for run, of_run in zip(runs, shares):
+            line = next(line for line in drawn.stdout.splitlines() if line.startswith(str(run)))
+            self.assertEqual(line.split()[1:3], [str(len(of_run)), f"{100 * of_run[-1]:.2f}"])
+        band = Table(self.folder / "band/fragment_runs.csv")
+        for share, few, most, middle in zip(*(band.numbers(name) for name in band.names[1:])):
+            counts = [sum(s >= share for s in of_run) for of_run in shares]
+            self.assertEqual([few, most, middle], [min(counts), max(counts), sum(counts) / 2], share)
+        other = self.run_scene(self.scene(IMPACT), "other", {"fragments.target": "ball"})
+        empty = self.folder / "empty"
+        empty.mkdir()
+        refused = ejecta("fragments", runs[0], other, empty, "--out", self.folder / "none")
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("expected shares of the mass of ring as in", refused.stderr)
+        self.assertIn("empty: expected the folder of a run with fragments.enabled = true", refused.stderr)
+        self.assertFalse((self.folder / "none").exists())
+
+    def test_theories_need_all_their_constants(self):
+        scene = self.scene(IMPACT)
+        for values, complaint in (({"flow_stress": '["1 GPa"]'}, "fragments.theory.mott_gamma: missing: Mott's prediction needs it"),
+                                  ({"fracture_energy": '["1 J/m^2"]'}, "fragments.theory.strain_rate: missing"),
+                                  ({"fracture_energy": '["2 J/m^2", "1 J/m^2"]'}, "expected one number, or the lower and the upper end of a range, got 2, 1"),
+                                  ({"fracture_energy": '["1 m"]'}, "J/m^2")):
+            refused = ejecta("check", scene, *settings({f"fragments.theory.{key}": value for key, value in values.items()}))
+            self.assertEqual(refused.returncode, 2, values)
+            self.assertIn(complaint, refused.stderr)
 
     def test_bodies_apart_at_the_start_are_apart(self):
         scene = self.scene(IMPACT.replace('"13.5 mm"', '"13.2 mm"'))  # lattices 0.3 mm nearer than a link

@@ -47,6 +47,18 @@ kind = "velocimeter"
 at = ["30 mm", "0 mm"]
 direction = [-1, 0]
 range = "15 mm"
+[[probes]]                    # of the four particles that its beam meets, the one on the axis
+name = "face"
+kind = "surface"
+at = ["3.5 mm", "30 mm"]
+direction = [0, -1]
+spot = "2 mm"
+interval = "0.5 us"
+[[probes]]
+name = "end"
+kind = "surface"
+at = ["30 mm", "0.5 mm"]
+direction = [-1, 0]
 [[probes]]
 name = "outside"
 at = ["50 mm", "0 mm"]
@@ -110,6 +122,16 @@ class Probes(RunTest):
             last = 9.5e-3  # the surface is half of a stretched spacing before the last column
             self.assertAlmostEqual(velocity, RATE * last + SPEED, delta=1e-6)
             self.assertAlmostEqual(distance, 30e-3 - (last * (1 + RATE * t) + SPEED * t) - 0.5e-3, delta=0.1e-3)
+        face = Table(out / "probe_face.csv")
+        for t, x, y, along in zip(*(face.numbers(name) for name in ("time", "x", "y", "velocity x"))):
+            self.assertAlmostEqual(x, 3.5e-3 * (1 + RATE * t) + SPEED * t, delta=1e-9)
+            self.assertAlmostEqual(y, 4.5e-3, delta=1e-12)  # half a spacing below the face
+            self.assertAlmostEqual(along, RATE * 3.5e-3 + SPEED, delta=1e-6)
+        self.assertNotIn("strain", face.names)
+        end = Table(out / "probe_end.csv")
+        for t, x, velocity in zip(*(end.numbers(name) for name in ("time", "x", "velocity"))):
+            self.assertAlmostEqual(x, 9.5e-3 * (1 + RATE * t) + SPEED * t, delta=1e-9)
+            self.assertAlmostEqual(velocity, RATE * 9.5e-3 + SPEED, delta=1e-6)
         self.assertTrue(all(math.isnan(v) for v in Table(out / "probe_short.csv").numbers("velocity")))
         self.assertTrue(all(math.isnan(p) for p in Table(out / "probe_outside.csv").numbers("pressure")))
         history = Table(out / "history.csv")
@@ -146,7 +168,7 @@ class Probes(RunTest):
         again = self.run_scene(scene, "again", {"time.max_steps": 25})
         done = ejecta("run", scene, "--out", again, "--restart", "--accept-changes")
         self.assertEqual(done.returncode, 0, done.stderr)
-        for name in ("rider", "window", "fixed", "beam"):
+        for name in ("rider", "window", "fixed", "beam", "face"):
             self.assertEqual((whole / f"probe_{name}.csv").read_text(), (again / f"probe_{name}.csv").read_text(), name)
 
     def test_gas_on_a_grid(self):
@@ -159,6 +181,9 @@ class Probes(RunTest):
     def test_what_makes_no_sense_is_refused(self):
         for change, complaint in (("probes.rider.at=[\"50 mm\",\"0 mm\"]", "expected a place within matter, got the nearest particle 40"),
                                   ("probes.beam.direction=[0,0,0]", "direction: missing: a velocimeter needs it"),
+                                  ("probes.end.direction=[0,0,0]", "direction: missing: a surface needs it"),
+                                  ("probes.end.direction=[1,0]", "probes.end.at: expected a beam that meets matter, got one that meets nothing"),
+                                  ("probes.rider.at=[\"60 mm\",\"0 mm\"]", "stretch.toml:17: probes.rider.at: expected"),
                                   ("probes.rider.body=stripe", "expected the name of a body (strip), got \"stripe\""),
                                   ("probes.window.window=2us", "expected no more than the interval between rows, 500 ns, got 2 us"),
                                   ("probes.fixed.spot=1mm", "a point has none"),

@@ -39,6 +39,13 @@ class FigureTest : public testing::Test {
     for (int n = 1; n < 200; ++n) fragments << n << ',' << 0.08 * std::pow(n, -1.4) << '\n';
     fragments << "0,0.7\n";  // dust
     caught << "mass [kg],fragments at least as heavy [1]\n0.02,1\n0.001,2\n";
+    std::ofstream theory(run / "fragment_theory.csv");
+    theory << "mass [kg],mass fraction [mass of small_target],\"Mott, fewest [1]\",\"Mott, most [1]\"\n";
+    for (int k = 0; k <= 100; ++k) {
+      const double share = std::pow(10, -5 + 0.05 * k), few = 20 * std::exp(-20 * share),
+                   most = 300 * std::exp(-300 * share);
+      theory << 0.1 * share << ',' << share << ',' << std::min(few, most) << ',' << std::max(few, most) << '\n';
+    }
     std::ofstream probe(run / "probe_A.csv"), measured(run / "probe_A_measured.csv");
     probe << "time [s],velocity [m/s],pressure [Pa]\n";
     for (int k = 0; k <= 60; ++k)
@@ -75,9 +82,38 @@ TEST_F(FigureTest, EveryPlotIsDrawnAndNotBlank) {
   }
 }
 
+/// How many pixels are a colour of gnuplot's that covers a share of white.
+int pixels_covered(const Png& png, std::uint32_t colour, double share) {
+  int count = 0;
+  for (const std::uint32_t pixel : png.rgb) {
+    bool alike = true;
+    for (const int shift : {0, 8, 16}) {
+      const double expected = 255 + share * ((colour >> shift & 0xFF) - 255.0);
+      alike = alike && std::abs((pixel >> shift & 0xFF) - expected) < 3;
+    }
+    count += alike;
+  }
+  return count;
+}
+
+TEST_F(FigureTest, TheoriesAreBands) {
+  write_data();
+  FigureSettings settings;
+  settings.fragment_target = "small_target";
+  const fs::path file = run / "figures/fragment_distribution.png";
+  make_figures(run, settings);
+  EXPECT_GT(pixels_covered(read_png(file), 0x8a226a, 0.22), 20000);
+  fs::remove(run / "fragment_theory.csv");
+  make_figures(run, settings);
+  EXPECT_EQ(pixels_covered(read_png(file), 0x8a226a, 0.22), 0);
+}
+
 TEST_F(FigureTest, PlotsWithoutDataAreLeftOut) {
   EXPECT_TRUE(make_figures(run, {}).empty());
   std::ofstream(run / "largest_fragment.csv") << "time [s],largest fragment mass fraction [1]\n";  // header only
+  EXPECT_TRUE(make_figures(run, {}).empty());
+  std::ofstream(run / "fragments.csv") << "number [1],mass fraction [mass of target]\n1,0\n0,1\n";  // of another body
+  std::ofstream(run / "fragment_distribution.csv") << "mass [kg],mass fraction [1],fragments at least as heavy [1]\n";
   EXPECT_TRUE(make_figures(run, {}).empty());
 }
 

@@ -68,6 +68,20 @@ TEST(Outset, WhatMovesAsAWholeIsNotExpectedToBePressed) {
   EXPECT_LT(sim->outset.pressure, 1e3);
 }
 
+TEST(Outset, PiecesOfMatterWithoutDamageAreRemarkedOn) {
+  const auto text = [](const std::vector<std::string>& overrides) {
+    const auto remarks = start<2>(ring, overrides)->remarks_at_start();
+    return remarks.empty() ? "" : remarks[0].text;
+  };
+  const std::string asked = "fragments.enabled=true";
+  EXPECT_EQ(text({asked, "bodies.ring.material=steel_4340"}),
+            "fragments of ring: steel_4340 has no damage: where it comes apart is decided by particles that lose their "
+            "neighbours, not by cracks");
+  EXPECT_EQ(text({"bodies.ring.material=steel_4340"}), "");
+  EXPECT_EQ(text({asked, "bodies.ring.material=basalt"}), "");
+  EXPECT_EQ(text({asked, "bodies.ring.material=rubber"}), "");
+}
+
 TEST(Outset, GasGivesTheLargestPressureThereIs) {
   const auto sim = start<2>(gas_tube);
   EXPECT_NEAR(sim->outset.pressure, 1, 0.05);
