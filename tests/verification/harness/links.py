@@ -10,10 +10,11 @@ from scipy.spatial import cKDTree
 SUPPORT = {"cubic_spline": 2, "wendland_c2": 2, "wendland_c4": 2, "quintic_spline": 3}  # radius in h
 
 
-def lattice_links(start, spacing):
-    """Index pairs (one row a link) of particles a spacing apart, of matter that can break (body 0) on one side at least."""
+def lattice_links(start, spacing, body=0):
+    """Index pairs (one row a link) of particles a spacing apart, of matter that can break (the body with this label) on
+    one side at least."""
     links = cKDTree(start["position"]).query_pairs(1.2 * spacing, output_type="ndarray")
-    return links[(start["body"][links] == 0).any(axis=1)]
+    return links[(start["body"][links] == body).any(axis=1)]
 
 
 def reach(state, i, x):

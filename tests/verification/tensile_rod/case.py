@@ -5,8 +5,8 @@ import subprocess
 import numpy as np
 
 from harness import Bound, Case, Run, execute
+from harness.links import SUPPORT, broken_links, lattice_links
 from harness.run import PROGRAM, number
-from tensile_rod.links import SUPPORT, broken_links, lattice_links
 
 LENGTH, WIDTH, SPEED, FLAWS = 0.03, 0.01, 100, 4  # m, m, m/s, k dx^2: flaws of a particle below a strain of 1
 
