@@ -139,7 +139,8 @@ int main(int argc, char** argv) {
   std::vector<std::string> folders;
   std::string fragments_out = "runs/fragments";
   CLI::App* fragments = app.add_subcommand(
-      "fragments", "draw the fragments of several runs of a scene as a band, beside what was caught and what theory expects");
+      "fragments",
+      "draw the fragments of several runs of a scene as a band, beside what was caught and what theory expects");
   fragments->add_option("folders", folders, "run folders")->required();
   fragments->add_option("--out", fragments_out, "folder")->capture_default_str();
   CLI::App* replay = app.add_subcommand("replay", "show checkpoints and snapshots of a run folder to pipelines again");

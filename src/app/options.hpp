@@ -69,8 +69,9 @@ int reference_command(const ReferenceOptions& options);
 /// Sets the scene up as a run does, so that whatever refuses a run before its first step refuses the check.
 int check_command(const std::string& scene_file, const std::vector<std::string>& overrides);
 int movie_command(const std::string& folder, int frames_per_second);
-/// Writes fragment_runs.csv and figures/fragment_runs.png into a folder: the fragments of several runs as a band, beside
-/// what was caught and what theories expect. Prints a line for each run. Throws InputError if a folder has no fragments.
+/// Writes fragment_runs.csv and figures/fragment_runs.png into a folder: the fragments of several runs as a band,
+/// beside what was caught and what theories expect. Prints a line for each run. Throws InputError if a folder has no
+/// fragments.
 int fragments_command(const std::vector<std::string>& folders, const std::string& out);
 int replay_command(const ReplayOptions& options);
 int export_command(const ExportOptions& options);

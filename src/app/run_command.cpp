@@ -131,8 +131,7 @@ void conclude(const Simulation& sim, const Frames& frames, const Job& job, Outpu
             [&](const fs::path& file) { write_measured_fragments(file, measured_masses(measured)); });
     const auto predictions = predict_fragments(sim.scene.fragments.theory, context.density, context.dimension);
     if (!predictions.empty())
-      write("fragment_theory.csv",
-            [&](const fs::path& file) { write_fragment_theory(file, predictions, context); });
+      write("fragment_theory.csv", [&](const fs::path& file) { write_fragment_theory(file, predictions, context); });
     for (const FragmentPrediction& p : predictions)
       spdlog::info("{}: {:.0f} to {:.0f} pieces of {}, of {:.2g} to {:.2g} % of it in the mean", p.who,
                    context.body_mass[context.target] / p.heaviest, context.body_mass[context.target] / p.lightest,

@@ -26,7 +26,7 @@ struct Probe {
   std::string measured;            ///< CSV file of a measured trace, for the figure; absolute once read
   double measured_delay = 0;       ///< s; what is added to its times
 
-  std::string origin;              ///< where the scene says so: "inputs/x.toml:14"
+  std::string origin;  ///< where the scene says so: "inputs/x.toml:14"
 
   bool beam() const { return kind == ProbeKind::velocimeter || kind == ProbeKind::surface; }
   bool rides() const { return kind == ProbeKind::tracer || kind == ProbeKind::surface; }

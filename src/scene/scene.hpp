@@ -40,23 +40,23 @@ struct Body {
   std::string name;
   std::string material;  ///< name of inputs/materials/<material>.toml
   BodyShape shape = BodyShape::sphere;
-  Triple center{0, 0, 0};            ///< m
-  double radius = unset;             ///< m; sphere, disc, cylinder
-  double inner_radius = 0;           ///< m; of the hole in them
-  Triple size{unset, unset, unset};  ///< m; box: full edge lengths
-  double length = unset;             ///< m; cylinder
-  Triple axis{0, 0, 1};              ///< cylinder axis
-  Triple velocity{0, 0, 0};          ///< m/s
-  double density = unset;            ///< kg/m^3; default: the material's reference bulk density
-  double pressure = unset;           ///< Pa; gas bodies: sets the specific energy
-  double specific_energy = 0;        ///< J/kg; used where pressure is not given
-  double spacing_factor = 1;         ///< particle spacing relative to resolution.spacing
+  Triple center{0, 0, 0};                       ///< m
+  double radius = unset;                        ///< m; sphere, disc, cylinder
+  double inner_radius = 0;                      ///< m; of the hole in them
+  Triple size{unset, unset, unset};             ///< m; box: full edge lengths
+  double length = unset;                        ///< m; cylinder
+  Triple axis{0, 0, 1};                         ///< cylinder axis
+  Triple velocity{0, 0, 0};                     ///< m/s
+  double density = unset;                       ///< kg/m^3; default: the material's reference bulk density
+  double pressure = unset;                      ///< Pa; gas bodies: sets the specific energy
+  double specific_energy = 0;                   ///< J/kg; used where pressure is not given
+  double spacing_factor = 1;                    ///< particle spacing relative to resolution.spacing
   BodyLattice lattice = BodyLattice::of_scene;  ///< how its particles are laid
-  double aspect = 1;                 ///< of shells: edge of a particle along its shell over that across
-  std::string origin;                ///< where the scene says so: "inputs/x.toml:14"
-  std::string weld = "auto";         ///< body it is one piece with; none; auto: see describe.cpp
-  bool driven = false;               ///< keeps its velocity whatever pulls at it, and never breaks
-  double jitter = 0;                 ///< random displacement along each axis, up to this many spacings
+  double aspect = 1;                            ///< of shells: edge of a particle along its shell over that across
+  std::string origin;                           ///< where the scene says so: "inputs/x.toml:14"
+  std::string weld = "auto";                    ///< body it is one piece with; none; auto: see describe.cpp
+  bool driven = false;                          ///< keeps its velocity whatever pulls at it, and never breaks
+  double jitter = 0;                            ///< random displacement along each axis, up to this many spacings
   Profile profile;
   bool implied = false;  ///< follows from [charge] or [gas], and is not echoed
 };
@@ -148,8 +148,8 @@ struct InSitu {
   std::map<std::string, ColourRange> ranges;  ///< field name -> fixed colour range in SI
 };
 
-/// What the figures of fragments show beside those computed: how a wall that stretches breaks (analysis/fragment_theory.hpp).
-/// Lists of numbers are one value, or the ends of a range.
+/// What the figures of fragments show beside those computed: how a wall that stretches breaks
+/// (analysis/fragment_theory.hpp). Lists of numbers are one value, or the ends of a range.
 struct FragmentTheory {
   double strain_rate = unset;           ///< 1/s; when it breaks
   double thickness = unset;             ///< m; of the wall then

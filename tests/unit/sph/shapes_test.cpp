@@ -98,7 +98,8 @@ TEST(Shapes, NoPointLiesOutsideByMoreThanAQuarterOfTheSpacing) {
   for (const Lattice lattice : {Lattice::cubic, Lattice::hexagonal}) {
     const auto all_inside = [&](const Body& body, const Body& grown, auto dim) {
       constexpr int Dim = decltype(dim)::value;
-      for (const auto& x : fill<Dim>(body, s, lattice).points) EXPECT_TRUE(inside<Dim>(grown, x)) << info(body.shape).word;
+      for (const auto& x : fill<Dim>(body, s, lattice).points)
+        EXPECT_TRUE(inside<Dim>(grown, x)) << info(body.shape).word;
     };
     const std::integral_constant<int, 3> space;
     const std::integral_constant<int, 2> plane;
