@@ -63,12 +63,14 @@ template <class V>
 
 /// Mass per time through a wave behind which the gas is slower by u: a + (a^2 + (rho c)^2)^(1/2), a = rho u (gamma +
 /// 1)/4, exact of a shock (u > 0) of an ideal gas [Toro 2009, sect. 3.1.3], right to first order in u of a rarefaction,
-/// and positive.
+/// and positive: where gas parts much faster than it can follow, which leaves nothing in between, the sum would be what
+/// rounding leaves of its root, so it goes no further than a = -8 rho c.
 template <class V>
-[[gnu::always_inline]] inline V mass_through(const MeetingGas<V>& gas, V impedance2, V u) {
+[[gnu::always_inline]] inline V mass_through(const MeetingGas<V>& gas, V impedance, V impedance2, V u) {
   using T = kernel_detail::Scalar<V>;
   const V a = T(0.25) * (gas.gamma + T(1)) * (gas.density * u);
-  return simd::rounded(V(a + root(simd::fused(a, a, impedance2))));
+  const V through = a > T(-8) * impedance ? V(a + root(simd::fused(a, a, impedance2))) : V(T(1. / 16) * impedance);
+  return simd::rounded(through);
 }
 
 }  // namespace riemann_detail
@@ -81,7 +83,8 @@ template <class V>
   const V zl2 = impedance2(l), zr2 = impedance2(r);
   const V zl = simd::rounded(root(zl2)), zr = simd::rounded(root(zr2));
   const StarState<V> sound = between_waves(zl, zr, l, r, apart);
-  return between_waves(mass_through(l, zl2, sound.faster_left), mass_through(r, zr2, sound.faster_right), l, r, apart);
+  return between_waves(mass_through(l, zl, zl2, sound.faster_left), mass_through(r, zr, zr2, sound.faster_right), l, r,
+                       apart);
 }
 
 namespace riemann_detail {

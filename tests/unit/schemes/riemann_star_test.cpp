@@ -48,6 +48,17 @@ TEST(RiemannStar, NewtonsMethodFindsTheExactSolution) {
   }
 }
 
+/// Gas without pressure that parts has no waves: what is between moves with the mean, and does not hang on round-off.
+TEST(RiemannStar, ColdGasThatPartsKeepsItsMeanVelocity) {
+  for (const double pressure : {1e-20, 1e-200, std::numeric_limits<double>::min()})
+    for (double apart = 1e-16; apart < 1e4; apart *= 7) {
+      const auto star = solve(approximate, {1, 0, pressure}, {1, apart, pressure});
+      EXPECT_LE(star.pressure[0], pressure * (1 + 1e-8)) << pressure << ' ' << apart;
+      EXPECT_NEAR(star.faster_left[0], -0.5 * apart, 1e-12 * apart) << pressure << ' ' << apart;
+      EXPECT_NEAR(star.faster_right[0], -0.5 * apart, 1e-12 * apart) << pressure << ' ' << apart;
+    }
+}
+
 TEST(RiemannStar, TheApproximationIsAsGoodAsStated) {
   for (const Problem& problem : problems) {
     const ExactRiemann truth(problem.left, problem.right, gamma_of_air);
