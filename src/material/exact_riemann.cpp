@@ -27,7 +27,7 @@ ExactRiemann::ExactRiemann(const GasState& left, const GasState& right, double g
     : left_(left), right_(right), gamma_(gamma), sound_left_(sound_speed(left, gamma)),
       sound_right_(sound_speed(right, gamma)) {
   const double apart = right.velocity - left.velocity;
-  if (apart >= 2 * (sound_left_ + sound_right_) / (gamma - 1)) return;  // Toro 2009, eq. 4.40
+  if (apart >= 2 * (sound_left_ + sound_right_) / (gamma - 1)) return;  // Toro 2009, eq. 4.82
   const auto excess = [&](double p) {
     return change_across(left, sound_left_, gamma, p) + change_across(right, sound_right_, gamma, p) + apart;
   };
