@@ -16,6 +16,9 @@ namespace {
 /// The bodies alone, as a scene of SPH.
 Scene scene_of_solids(Scene scene, const std::vector<Material>& materials) {
   std::erase_if(scene.bodies, [&](const Body& body) { return !is_solid(body, materials); });
+  if (!scene.bodies.empty() && scene.numerics.kernel == Kernel::gaussian)
+    throw InputError(
+        fmt::format("{}: numerics.kernel: expected another one than gaussian where bodies are solid", scene.file));
   scene.numerics.scheme = SchemeKind::sph;
   scene.numerics.density = DensityMethod::continuity;
   scene.charge.reset();

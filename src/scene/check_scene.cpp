@@ -215,10 +215,22 @@ void check_theory(const FragmentTheory& theory, const std::string& path, const R
   if (theory.any() && !is_set(theory.thickness)) report(path + ".thickness", "missing: the predictions need it");
 }
 
-/// What Riemann problems between particles cannot do.
+/// What Riemann problems between particles cannot do, and what nothing else can.
 void check_godunov(const Numerics& n, const Report& report) {
-  if (!n.godunov()) return;
   const std::string scheme{name_of(n.scheme)};
+  const auto refuse_if = [&](bool wrong, const char* key, const char* expected) {
+    if (wrong) report(key, fmt::format("expected {}, got {}", expected, scheme));
+  };
+  refuse_if(n.kernel == Kernel::gaussian && !n.godunov() && n.scheme != SchemeKind::fvm, "numerics.kernel",
+            "scheme gsph, agsph or hybrid with gaussian");
+  refuse_if(is_set(n.pilot_width) && n.scheme != SchemeKind::gsph, "numerics.pilot_width", "scheme gsph with it");
+  refuse_if(n.linear_conduction > 0 && !n.godunov(), "numerics.linear_conduction",
+            "scheme gsph, agsph or hybrid with it");
+  refuse_if(n.quadratic_conduction > 0 && !n.godunov(), "numerics.quadratic_conduction",
+            "scheme gsph, agsph or hybrid with it");
+  if (is_set(n.pilot_width) && n.density != DensityMethod::summation)
+    report("numerics.pilot_width", fmt::format("expected density summation with it, got {}", name_of(n.density)));
+  if (!n.godunov()) return;
   if (n.precision == Precision::mixed)
     report("numerics.precision", fmt::format("expected double with scheme {}, got mixed", scheme));
   const auto refuse = [&](const char* key, Switch choice) {

@@ -16,7 +16,7 @@ inline constexpr double unset = std::numeric_limits<double>::signaling_NaN();
 inline bool is_set(double value) { return !std::isnan(value); }
 using Triple = std::array<double, 3>;  ///< x, y, z; z is ignored in plane strain
 
-enum class Kernel { cubic_spline, quintic_spline, wendland_c2, wendland_c4 };
+enum class Kernel { cubic_spline, quintic_spline, wendland_c2, wendland_c4, gaussian };
 enum class Precision { double_precision, mixed };
 enum class DistensionSolver { safe_newton, bisection, newton };
 enum class PairRiemann { approximate, exact };

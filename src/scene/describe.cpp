@@ -87,11 +87,11 @@ void describe(Describer& d, Numerics& n) {
            "particles smoothed over a length h (sph) or a tensor H (asph, ellipsoids); the same with Riemann problems "
            "between neighbours, for gases (gsph, agsph); fvm: finite volumes on a grid; hybrid: the same, with gsph "
            "where shocks are");
-  d.choice("kernel", n.kernel, "smoothing kernel");
+  d.choice("kernel", n.kernel, "smoothing kernel; gaussian, cut off at 3 h: gsph and hybrid alone");
   d.choice("precision", n.precision, "of the pair passes; mixed: pair differences in float, sums and states in double");
   d.choice("density", n.density,
-           "continuity for solids; summation for gases only; gsph: summation unless given, or continuity by what faces "
-           "sweep");
+           "continuity for solids; summation for gases only; gsph: continuity is what faces sweep; hybrid, and with "
+           "pilot_width: summation");
   d.number("nodes_per_h", n.nodes_per_h, "1", between(1, 4), "particles per smoothing length");
   d.number("smoothing_growth", n.smoothing_growth, "1", at_least(1),
            "of solids: largest h relative to that of the lattice; 1: h constant. A gas may widen it 20 times");
@@ -114,6 +114,12 @@ void describe(Describer& d, Numerics& n) {
            "gsph: of the slopes that bring states to the middle of a pair; none: first order, as they are");
   d.choice("faces", n.faces,
            "gsph: what fluxes go through, gradients that are exact for linear fields or those of the kernel");
+  d.number("pilot_width", n.pilot_width, "1", between(1, 4),
+           "gsph: smoothing lengths follow a density that is summed over a kernel so many times as wide (2.5 of Puri & "
+           "Ramachandran 2014); else neighbours are counted");
+  d.number("linear_conduction", n.linear_conduction, "1", between(0, 1),
+           "gsph: g1 of an artificial conduction of heat by g1 h c + g2 h^2 (|div v| - div v)");
+  d.number("quadratic_conduction", n.quadratic_conduction, "1", between(0, 1), "gsph: g2 of the same");
   d.number("courant", n.courant, "1", {.min = 0, .max = 1, .open_min = true}, "time step in signal crossings of h");
   d.choice("distension_solver", n.distension_solver, "root finder of the porosity model; the last two for comparison");
   d.number("distension_tolerance", n.distension_tolerance, "1", {.min = 0, .max = 1e-7, .open_min = true},

@@ -8,7 +8,7 @@
 namespace ejecta {
 
 constexpr auto enum_names(Kernel) {
-  return std::to_array<std::string_view>({"cubic_spline", "quintic_spline", "wendland_c2", "wendland_c4"});
+  return std::to_array<std::string_view>({"cubic_spline", "quintic_spline", "wendland_c2", "wendland_c4", "gaussian"});
 }
 constexpr auto enum_names(SchemeKind) {
   return std::to_array<std::string_view>({"sph", "asph", "fvm", "gsph", "agsph", "hybrid"});

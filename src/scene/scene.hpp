@@ -72,6 +72,7 @@ struct Numerics {
   }
   /// Whether all matter is on a grid, perhaps with particles besides.
   bool on_grid() const { return scheme == SchemeKind::fvm || scheme == SchemeKind::hybrid; }
+  bool conducts() const { return linear_conduction > 0 || quadratic_conduction > 0; }
   /// What damps a difference of velocities, as coefficients of Monaghan's viscosity. A Riemann problem between like
   /// gases has p* - p = rho u (c + (gamma + 1)/4 u), u half of what they close by [Toro 2009, sect. 3.1.3].
   double damping_alpha() const { return godunov() ? 1 : viscosity_alpha; }
@@ -94,6 +95,8 @@ struct Numerics {
   PairRiemann riemann = PairRiemann::approximate;  ///< GSPH: between two particles
   PairLimiter limiter = PairLimiter::monotonised_central;  ///< GSPH: of the states brought to the middle of a pair
   PairFaces faces = PairFaces::renormalised;               ///< GSPH: what the flux of a pair goes through
+  double pilot_width = unset;  ///< GSPH: of the density that smoothing lengths follow, in h; else neighbours are counted
+  double linear_conduction = 0, quadratic_conduction = 0;  ///< GSPH: g1, g2 of the artificial conduction
   double courant = 0.4;
   DistensionSolver distension_solver = DistensionSolver::safe_newton;
   double distension_tolerance = 1e-12;

@@ -1,8 +1,12 @@
 # One source for the passes of each kernel, dimension and kind of neighbourhood or flux, so that they compile side by side. The
 # words are the structs of kernels.hpp, and the schemes those of pair_pass_kinds.hpp and riemann_pass_kinds.hpp.
-foreach(KERNEL CubicSpline QuinticSpline WendlandC2 WendlandC4)
+foreach(KERNEL CubicSpline QuinticSpline WendlandC2 WendlandC4 Gaussian)
+  set(SCHEMES isotropic anisotropic riemann)
+  if(KERNEL STREQUAL Gaussian)
+    set(SCHEMES riemann)
+  endif()
   foreach(DIM 2 3)
-    foreach(SCHEME isotropic anisotropic riemann)
+    foreach(SCHEME ${SCHEMES})
       set(PASSES pair_pass_kinds.hpp)
       if(SCHEME STREQUAL riemann)
         set(PASSES riemann_pass_kinds.hpp)

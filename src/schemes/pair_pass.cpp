@@ -1,5 +1,8 @@
 #include "schemes/pair_pass.hpp"
 
+#include <type_traits>
+
+#include "base/errors.hpp"
 #include "schemes/kernels.hpp"
 
 namespace ejecta {
@@ -17,8 +20,11 @@ std::unique_ptr<PairPass<Dim>> make_pair_pass(const PairPassSettings& settings) 
   return with_kernel(settings.kernel, [&](auto kernel) {
     using K = decltype(kernel);
     if (settings.godunov) return make_riemann_pass_of<Dim, K>(settings);
-    return settings.asph || settings.cracked ? make_anisotropic_pass_of<Dim, K>(settings)
-                                             : make_isotropic_pass_of<Dim, K>(settings);
+    if constexpr (std::is_same_v<K, Gaussian>)
+      throw InputError("numerics.kernel: expected another one than gaussian, which is for Riemann problems alone");
+    else
+      return settings.asph || settings.cracked ? make_anisotropic_pass_of<Dim, K>(settings)
+                                               : make_isotropic_pass_of<Dim, K>(settings);
   });
 }
 

@@ -23,6 +23,9 @@ struct GodunovSettings {
   /// What sums over the lattice give of 1 and of the gradient of x (lattice_sums.hpp): densities and the faces `kernel`
   /// are divided by them.
   double lattice_density = 1, lattice_gradient = 1;
+  /// Artificial conduction of heat, g1 and g2 of PairPass::rates().
+  double linear_conduction = 0, quadratic_conduction = 0;
+  bool conducts() const { return linear_conduction > 0 || quadratic_conduction > 0; }
 };
 
 /// What a scene asks of the pair passes; fixed for a run.
@@ -91,8 +94,11 @@ class PairPass {
   /// opening crack does not strain the matter beside it.
   ///
   /// With Godunov fluxes forces and heat are those of riemann_flux.hpp, and where there is a compression_rate it is
-  ///   (1/rho) drho/dt = -sum_j 2 V_j a_ij.(v* - v_i) + 0.3 c/h ln(sum_j V_j W(r_ij, h_j)/(that of the lattice)):
-  /// what the faces sweep, and what keeps the volumes filling space.
+  ///   (1/rho) drho/dt = -sum_j 2 V_j a_ij.(v* - v_i) + c/h ln(sum_j V_j W(r_ij, h_j)/(that of the lattice)):
+  /// what faces sweep, and what makes volumes fill space (density_shares() bounds them). If asked, heat is conducted,
+  ///   du_i/dt += sum_j m_j (H_i + H_j)/rho_ij (u_i - u_j) x_ij.g_ij/r^2,    H = g1 h c + g2 h^2 (|div v| - div v),
+  /// rho_ij the mean of both: what one gains the other loses, and of a smooth u it is div (H grad u) [Sigalotti et al.
+  /// 2006, J. Comput. Phys. 212, 124; Puri & Ramachandran 2014, ibid. 256, 308, as PySPH has it].
   ///
   /// Reads what PairRecord reads; writes acceleration, specific_energy_rate, zeroth_moment, largest_mu,
   /// velocity_gradient, uncut_gradient, stretch (of bonds: the largest |x_ij|/|X_ij|, at least 1).

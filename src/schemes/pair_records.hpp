@@ -26,6 +26,7 @@ struct RecordScales {
   double slope = 1;        ///< of its reduced slope
   bool slope_over_r = false;
   double length_unit = 1;  ///< m
+  double linear_conduction = 0, quadratic_conduction = 0;
 };
 
 /// Who acts on whom, and how.

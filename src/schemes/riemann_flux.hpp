@@ -43,19 +43,21 @@ template <class V>
 struct RiemannFlux {
   static constexpr bool whole = true;
 
-  /// Reads pressure, density, sound_speed, and where they exist density_gradient, pressure_gradient, velocity_gradient,
-  /// face_correction and wall.
+  /// Reads pressure, density, sound_speed, where they exist density_gradient, pressure_gradient, velocity_gradient,
+  /// face_correction and wall, and with conduction specific_energy and smoothing_length.
   template <int Dim, bool Strained>
   class Record {
    public:
     static constexpr int pressure = 0;
-    static constexpr int gamma = pressure + 1;          ///< rho c^2/P
-    static constexpr int wall = gamma + 1;              ///< 1: nothing passes to others that have it too
-    static constexpr int density_gradient = wall + 1;   ///< gradients by length_unit
+    static constexpr int gamma = pressure + 1;         ///< rho c^2/P
+    static constexpr int wall = gamma + 1;             ///< 1: nothing passes to others that have it too
+    static constexpr int density_gradient = wall + 1;  ///< gradients by length_unit
     static constexpr int pressure_gradient = density_gradient + Dim;
     static constexpr int strain = pressure_gradient + Dim;  ///< e_xx e_yy 2 e_xy | ...
     static constexpr int correction = strain + symmetric_size<Dim>;
-    static constexpr int size = correction + Dim * Dim;
+    static constexpr int energy = correction + Dim * Dim;  ///< specific
+    static constexpr int conduction = energy + 1;          ///< H
+    static constexpr int size = conduction + 1;
 
     Record(const Particles<Dim>& particles, const RecordScales& scales)
         : particles_(particles),
@@ -66,7 +68,9 @@ struct RiemannFlux {
           pressure_gradient_(particles, Field::pressure_gradient),
           correction_(particles, Field::face_correction),
           wall_(particles, Field::wall),
-          length_unit_(scales.length_unit) {}
+          energy_(particles, Field::specific_energy),
+          h_(particles, Field::smoothing_length),
+          scales_(scales) {}
 
     template <class T>
     void pack(std::size_t i, T* places) const {
@@ -77,12 +81,17 @@ struct RiemannFlux {
       for (int k = density_gradient; k < size; ++k) places[k] = T(0);
       if (density_gradient_.count == 0) return;
       for (std::size_t a = 0; a < Dim; ++a) {
-        places[density_gradient + a] = static_cast<T>(density_gradient_(a, i) * length_unit_);
-        places[pressure_gradient + a] = static_cast<T>(pressure_gradient_(a, i) * length_unit_);
+        places[density_gradient + a] = static_cast<T>(density_gradient_(a, i) * scales_.length_unit);
+        places[pressure_gradient + a] = static_cast<T>(pressure_gradient_(a, i) * scales_.length_unit);
       }
       const Symmetric<Dim> rate = pair_detail::rate_of_strain<Dim>(particles_.tensor(Field::velocity_gradient, i));
-      for (int k = 0; k < symmetric_size<Dim>; ++k) places[strain + k] = static_cast<T>(rate[k] * length_unit_);
+      for (int k = 0; k < symmetric_size<Dim>; ++k) places[strain + k] = static_cast<T>(rate[k] * scales_.length_unit);
       for (std::size_t k = 0; k < Dim * Dim; ++k) places[correction + k] = static_cast<T>(correction_(k, i));
+      if (scales_.linear_conduction == 0 && scales_.quadratic_conduction == 0) return;
+      places[energy] = static_cast<T>(energy_(0, i));
+      const double h = h_(0, i), closing = std::max(0.0, -particles_.tensor(Field::velocity_gradient, i).trace());
+      places[conduction] =
+          static_cast<T>(scales_.linear_conduction * h * c + 2 * scales_.quadratic_conduction * h * h * closing);
     }
     template <class T>
     static void mirror(T* places, int axis) {
@@ -100,8 +109,9 @@ struct RiemannFlux {
     /// Matter without pressure has no adiabatic index; gases have one between these.
     static constexpr double least_gamma = 1 + 1e-6, most_gamma = 10;
     const Particles<Dim>& particles_;
-    Columns<Dim, const double> pressure_, density_, sound_speed_, density_gradient_, pressure_gradient_, correction_, wall_;
-    double length_unit_;
+    Columns<Dim, const double> pressure_, density_, sound_speed_, density_gradient_, pressure_gradient_, correction_,
+        wall_, energy_, h_;
+    RecordScales scales_;
   };
 
   template <class V, int Dim, class R, bool Strained>
@@ -119,6 +129,8 @@ struct RiemannFlux {
           pressure_(load(R::flux + Places::pressure)),
           gamma_(load(R::flux + Places::gamma)),
           wall_(load(R::flux + Places::wall)),
+          energy_(load(R::flux + Places::energy)),
+          conduction_(load(R::flux + Places::conduction)),
           per_lattice_(static_cast<T>(1 / settings.godunov->lattice_gradient)) {
       for (int a = 0; a < Dim; ++a) {
         density_gradient_[a] = load(R::flux + Places::density_gradient + a);
@@ -148,6 +160,14 @@ struct RiemannFlux {
       flux.drift = drift * per_r * pair_detail::dot(flux.face, p.dx);
       flux.approach = simd::min(apart, V{});
       return flux;
+    }
+
+    /// Times m_j it is what the specific energy of i gains by conduction; seen from j, the negative.
+    template <class Partner>
+    [[gnu::always_inline]] V conducted(const Partner& p) const {
+      const T* theirs = p.record + R::flux;
+      const V density = density_ + p.record[R::density], both = conduction_ + theirs[Places::conduction];
+      return T(2) * both * simd::reciprocal(density) * (theirs[Places::energy] - energy_) * p.central();
     }
 
    private:
@@ -227,7 +247,7 @@ struct RiemannFlux {
     }
 
     GodunovSettings settings_;
-    V density_, sound_speed_, expansion_, pressure_, gamma_, wall_;
+    V density_, sound_speed_, expansion_, pressure_, gamma_, wall_, energy_, conduction_;
     T per_lattice_;
     V density_gradient_[Dim], pressure_gradient_[Dim], strain_[symmetric_size<Dim>], correction_[Dim * Dim];
   };

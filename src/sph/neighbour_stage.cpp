@@ -13,12 +13,16 @@ constexpr double steps_ahead = 10;  ///< steps that new lists should last
 constexpr std::int64_t steps_between_sorts = 200;
 }  // namespace
 
+double list_reach(const Numerics& numerics) {
+  return kernel_support(numerics.kernel) * (is_set(numerics.pilot_width) ? numerics.pilot_width : 1);
+}
+
 template <int Dim>
 void renew_lists(Sph<Dim>& sph) {
   if (sph.lists.valid(sph.particles, sph.clock.time - sph.lists_built_at)) return;
   const Numerics& numerics = sph.scene.numerics;
-  sph.lists.build(sph.particles, {kernel_support(numerics.kernel), cluster_size(numerics.precision),
-                                  steps_ahead * sph.clock.dt, sph.scene.boundary});
+  sph.lists.build(sph.particles, {list_reach(numerics), cluster_size(numerics.precision), steps_ahead * sph.clock.dt,
+                                  sph.scene.boundary});
   sph.lists_built_at = sph.clock.time;
   ++sph.list_builds;
 }

@@ -75,12 +75,17 @@ template <int Dim>
 void summation_density(Sph<Dim>& sph) {
   // At the start the smoothing lengths are iterated to their fixed point; later one update a step keeps them there.
   const int iterations = sph.clock.step == 0 ? 8 : 1;
+  const bool pilot = is_set(sph.scene.numerics.pilot_width);
   for (int k = 0; k < iterations; ++k) {
-    sph.pass->density(sph.particles, sph.lists);
-    smoothing_lengths(sph);
+    if (pilot) {
+      pilot_lengths(sph);
+    } else {
+      sph.pass->density(sph.particles, sph.lists);
+      smoothing_lengths(sph);
+    }
     renew_lists(sph);  // h may have outgrown the margin of the lists, and a missed pair has a force on one side only
   }
-  if (sph.clock.step == 0) sph.pass->density(sph.particles, sph.lists);
+  if (pilot || sph.clock.step == 0) sph.pass->density(sph.particles, sph.lists);
 }
 
 template <int Dim>
@@ -96,8 +101,7 @@ void pair_rates(Sph<Dim>& sph) {
 template <int Dim>
 void strain_rates(Sph<Dim>& sph) {
   Particles<Dim>& p = sph.particles;
-  const bool continuity = p.has(Field::compression_rate), variable_shear = p.has(Field::shear_modulus),
-             swept = sph.scene.numerics.godunov();  // by faces: the pair rates know
+  const bool continuity = p.has(Field::compression_rate), variable_shear = p.has(Field::shear_modulus);
   const double share = density_share(sph.scene, Dim);
   for (std::size_t m = 0; m < sph.materials.size(); ++m) {
     const Material& material = sph.materials[m];
@@ -106,7 +110,7 @@ void strain_rates(Sph<Dim>& sph) {
       const Mat<Dim> L = p.tensor(Field::velocity_gradient, i);
       const double compression = -L.trace();  // (1/rho) drho/dt
       if (continuity) {
-        if (!swept) p.column(Field::compression_rate)[i] = compression;
+        p.column(Field::compression_rate)[i] = compression;
         hold_density(sph, material, share, i);
       }
       if (!material.solid()) return;

@@ -40,7 +40,7 @@ void check_periodic_width(const Scene& scene) {
   constexpr std::array axes{"x", "y", "z"};
   double spacing = 0;
   for (const Body& body : scene.bodies) spacing = std::max(spacing, scene.spacing * body.spacing_factor);
-  const double reach = kernel_support(scene.numerics.kernel) * scene.numerics.nodes_per_h * spacing;
+  const double reach = list_reach(scene.numerics) * scene.numerics.nodes_per_h * spacing;
   std::vector<std::string> problems;
   for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dimension); ++a) {
     const double width = scene.boundary.length(a);
@@ -111,8 +111,7 @@ void fill_columns(Sph<Dim>& sph, const std::vector<Placement<Dim>>& placements) 
     p.column(Field::specific_energy)[i] = initial_energy(body, material, s.density);
     p.column(Field::smoothing_length)[i] = scene.numerics.nodes_per_h * s.spacing;
     if (p.has(Field::smoothing_metric))
-      p.set_symmetric(Field::smoothing_metric, i,
-                      s.shape / std::pow(scene.numerics.nodes_per_h * s.spacing, 2));
+      p.set_symmetric(Field::smoothing_metric, i, s.shape / std::pow(scene.numerics.nodes_per_h * s.spacing, 2));
     p.label(Label::id)[i] = static_cast<std::int32_t>(i);
     p.label(Label::body)[i] = s.body;
     p.label(Label::material)[i] = s.material;
@@ -226,7 +225,13 @@ std::unique_ptr<Sph<Dim>> assemble(const Scene& scene, const std::vector<Materia
   settings.length_unit = power_of_two_below(scene.spacing);
   if (numerics.godunov()) {
     const LatticeSums lattice = lattice_sums(numerics.kernel, Dim, numerics.nodes_per_h);
-    settings.godunov = {numerics.riemann, numerics.limiter, numerics.faces, lattice.density, lattice.gradient};
+    settings.godunov = {numerics.riemann,
+                        numerics.limiter,
+                        numerics.faces,
+                        lattice.density,
+                        lattice.gradient,
+                        numerics.linear_conduction,
+                        numerics.quadratic_conduction};
   }
   sph->pass = make_pair_pass<Dim>(settings);
   sph->support = std::make_unique<SupportSize>(numerics.kernel, Dim, numerics.nodes_per_h);

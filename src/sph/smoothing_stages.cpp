@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <cmath>
 
 #include "base/parallel.hpp"
 #include "particles/smoothing_metric.hpp"
+#include "schemes/lattice_sums.hpp"
 #include "sph/stages.hpp"
 
 namespace ejecta {
@@ -49,6 +51,26 @@ void smoothing_lengths(Sph<Dim>& sph) {
 }
 
 template <int Dim>
+void pilot_lengths(Sph<Dim>& sph) {
+  Particles<Dim>& p = sph.particles;
+  const Numerics& n = sph.scene.numerics;
+  const auto h = p.column(Field::smoothing_length), density = p.column(Field::density), mass = p.column(Field::mass);
+  parallel_for(0, p.size(), [&](std::size_t i) { h[i] *= n.pilot_width; });
+  sph.pass->density(p, sph.lists);
+  // The pass divides by what the lattice gives with n_h particles in h.
+  const double wider = lattice_sums(n.kernel, Dim, n.pilot_width * n.nodes_per_h).density /
+                       lattice_sums(n.kernel, Dim, n.nodes_per_h).density;
+  for (std::size_t m = 0; m < sph.materials.size(); ++m) {
+    const Range range = p.material_ranges()[m];
+    parallel_for(range.begin, range.end, [&](std::size_t i) {
+      const double volume = wider * mass[i] / density[i], size = Dim == 2 ? std::sqrt(volume) : std::cbrt(volume);
+      const Bounds bounds = bounds_on_h(sph, sph.materials[m], i);
+      h[i] = std::clamp(n.nodes_per_h * size, bounds.least, bounds.most);
+    });
+  }
+}
+
+template <int Dim>
 void carry_smoothing(Sph<Dim>& sph) {
   if (sph.clock.step == 0) return;
   Particles<Dim>& p = sph.particles;
@@ -71,6 +93,8 @@ void carry_smoothing(Sph<Dim>& sph) {
 
 template void smoothing_lengths<2>(Sph<2>&);
 template void smoothing_lengths<3>(Sph<3>&);
+template void pilot_lengths<2>(Sph<2>&);
+template void pilot_lengths<3>(Sph<3>&);
 template void carry_smoothing<2>(Sph<2>&);
 template void carry_smoothing<3>(Sph<3>&);
 

@@ -54,8 +54,9 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
                                                              any([](const Material& m) { return m.stretches(); }));
   const bool tensor = scene.numerics.tensors();
   const bool godunov = scene.numerics.godunov();
+  const bool conducts = scene.numerics.conducts();
   // First order with uncorrected faces needs no slopes.
-  const bool slopes = godunov && (tensor || continuity || scene.numerics.limiter != PairLimiter::none ||
+  const bool slopes = godunov && (tensor || continuity || conducts || scene.numerics.limiter != PairLimiter::none ||
                                   scene.numerics.faces == PairFaces::renormalised);
   const bool gradient = solid || continuity || balsara || switched || tensor || corrects_gradients(scene, materials);
 
@@ -124,6 +125,7 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
           .with(coupled, {damage_tensor})
           .with(gradient, {velocity_gradient})
           .with(slopes, {density_gradient, pressure_gradient, velocity_gradient, face_correction})
+          .with(conducts, {specific_energy})
           .with(balsara, {viscosity_factor})
           .with(switched, {Field::shock_switch})
           .with(bonded, {start_position, bond}),
@@ -134,7 +136,7 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
           .with(bonded, {stretch}),
       pair_rates<Dim>);
   if (driven) add("driven bodies", {acceleration, velocity, mass, position}, {acceleration}, driven_bodies<Dim>);
-  if (continuity || solid)
+  if ((continuity || solid) && !godunov)  // what faces sweep is among the pair rates
     add("strain rates",
         Fields{velocity_gradient}
             .with(continuity, {density, zeroth_moment, smoothing_length, mass, specific_energy, sound_speed})
@@ -142,11 +144,7 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
             .with(porous && solid, {distension, stress_factor})
             .with(coupled, {uncut_gradient})
             .with(variable_shear, {shear_modulus}),
-        Fields{}
-            .with(continuity, {density})
-            .with(continuity && !godunov, {compression_rate})
-            .with(solid, {stress_rate}),
-        strain_rates<Dim>);
+        Fields{}.with(continuity, {density, compression_rate}).with(solid, {stress_rate}), strain_rates<Dim>);
   if (balsara || switched)
     add("viscosity switches",
         Fields{velocity_gradient, sound_speed, smoothing_length}.with(switched, {Field::shock_switch}),

@@ -45,6 +45,11 @@ void carry_smoothing(Sph<Dim>& sph);
 /// Smoothing lengths (the size of smoothing tensors) for the next step, from the number of neighbours.
 template <int Dim>
 void smoothing_lengths(Sph<Dim>& sph);
+/// Those of a pilot density, which is summed over a kernel numerics.pilot_width times as wide: h = n_h (m/rho)^(1/Dim)
+/// [Sigalotti et al. 2006, J. Comput. Phys. 212, 124; Puri & Ramachandran 2014, ibid. 256, 308]. Neighbours count by
+/// number, as in the density itself, which is overwritten.
+template <int Dim>
+void pilot_lengths(Sph<Dim>& sph);
 
 // --- driven_stage.cpp ------------------------------------------------------------------------------------------------
 /// Takes the acceleration of driven bodies away; the force that does so, and its power, are noted in sph.external.
@@ -83,6 +88,8 @@ void peaks(Sph<Dim>& sph);
 /// Renews the pair lists if somebody has left its margin, and the order of the particles if it has worn out.
 template <int Dim>
 StageWork<Dim> neighbours();
+/// How far lists reach [h]: as far as the kernel, or that of the pilot density.
+double list_reach(const Numerics& numerics);
 /// Renews the pair lists alone, if need be: after smoothing lengths have changed within a step.
 template <int Dim>
 void renew_lists(Sph<Dim>& sph);

@@ -24,6 +24,8 @@ constexpr int kernel_slope(Kernel kernel) {
       return 18;
     case Kernel::wendland_c2:
       return 5;
+    case Kernel::gaussian:
+      return 30;
     case Kernel::wendland_c4:
       break;
   }
@@ -38,6 +40,8 @@ constexpr int reduced_slope(Kernel kernel) {
       return 13;
     case Kernel::wendland_c2:
       return 2;
+    case Kernel::gaussian:
+      return 31;
     case Kernel::wendland_c4:
       break;
   }
@@ -50,12 +54,14 @@ constexpr int kernel_value(Kernel kernel) {
       return 8;
     case Kernel::quintic_spline:
       return 19;
+    case Kernel::gaussian:
+      return 29;
     case Kernel::wendland_c4:
       break;
   }
   return 13;
 }
-/// The splines divide by q, the Wendland kernels do not.
+/// The splines divide by q, the others do not.
 constexpr bool needs_reciprocal_of_q(Kernel kernel) {
   return kernel == Kernel::cubic_spline || kernel == Kernel::quintic_spline;
 }

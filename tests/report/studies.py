@@ -74,7 +74,7 @@ AXES = (
     Axis("courant", "Time-step factor", {
         f"{c:g}": {"numerics.courant": c} for c in (0.25, 0.1, 0.4, 0.5)}),
     Axis("method", "Particles everywhere, at the shock alone, or none", {
-        "particles": {"numerics.scheme": "gsph", "boundary.max": (52, 52, "m")},
+        "particles": {"numerics.scheme": "gsph", "numerics.density": "summation", "boundary.max": (52, 52, "m")},
         "hybrid, ratio 2": {"hybrid.ratio": 2},
         "hybrid, ratio 4": {"hybrid.ratio": 4},
         "grid": {"numerics.scheme": "fvm"}}, of=BLAST),

@@ -25,7 +25,7 @@ TEST_P(RefusesScene, WithOneMessage) {
   EXPECT_EQ(problems_of(text), std::vector<std::string>{bad.message});
 }
 
-const std::string kernels = "cubic_spline, quintic_spline, wendland_c2, wendland_c4";
+const std::string kernels = "cubic_spline, quintic_spline, wendland_c2, wendland_c4, gaussian";
 
 INSTANTIATE_TEST_SUITE_P(
     Scene, RefusesScene,
@@ -86,6 +86,15 @@ INSTANTIATE_TEST_SUITE_P(
                      ", got \"wendland_c3\", did you mean wendland_c2?"},
         BadScene{"riemann_in_single", "", "[numerics]\nscheme = \"gsph\"\nprecision = \"mixed\"\n",
                  "s.toml:19: numerics.precision: expected double with scheme gsph, got mixed"},
+        BadScene{"gaussian_alone", "", "[numerics]\nkernel = \"gaussian\"\n",
+                 "s.toml:18: numerics.kernel: expected scheme gsph, agsph or hybrid with gaussian, got sph"},
+        BadScene{"pilot_in_a_hybrid", "", "[numerics]\nscheme = \"hybrid\"\npilot_width = 2.5\n",
+                 "s.toml:19: numerics.pilot_width: expected scheme gsph with it, got hybrid"},
+        BadScene{"pilot_with_continuity", "",
+                 "[numerics]\nscheme = \"gsph\"\npilot_width = 2.5\ndensity = \"continuity\"\n",
+                 "s.toml:19: numerics.pilot_width: expected density summation with it, got continuity"},
+        BadScene{"conduction_with_viscosity", "", "[numerics]\nlinear_conduction = 0.1\n",
+                 "s.toml:18: numerics.linear_conduction: expected scheme gsph, agsph or hybrid with it, got sph"},
         BadScene{"riemann_with_viscosity", "", "[numerics]\nscheme = \"agsph\"\nshock_switch = true\n",
                  "s.toml:19: numerics.shock_switch: scheme agsph has none"},
         BadScene{

@@ -7,6 +7,8 @@
 #include <numbers>
 
 #include "base/errors.hpp"
+#include "schemes/kernels.hpp"
+#include "schemes/lattice_sums.hpp"
 #include "unit/base/thread_counts.hpp"
 #include "unit/sph/small_scenes.hpp"
 
@@ -260,6 +262,40 @@ max = ["10 m", ")" +
                 std::string::npos)
           << error.what();
     }
+}
+
+/// h = n_h (volume)^(1/2), with the volume that a kernel 2.5 times as wide leaves a particle; beside the contact that
+/// is not what counting neighbours gives.
+TEST(SetUp, SmoothingLengthsFollowAPilotDensity) {
+  constexpr double width = 2.5, height = 0.8;
+  std::vector<std::string> settings{"numerics.scheme=gsph",
+                                    "numerics.density=summation",
+                                    "bodies.left.size=[\"1 m\", \"0.8 m\"]",
+                                    "boundary.min=[\"-1 m\", \"-0.4 m\"]",
+                                    "boundary.max=[\"1 m\", \"0.4 m\"]",
+                                    "bodies.right.size=[\"1 m\", \"0.8 m\"]"};
+  const auto counted = start<2>(gas_tube, settings);
+  settings.push_back("numerics.pilot_width=2.5");
+  const auto sim = start<2>(gas_tube, settings);
+  const Numerics& n = sim->scene.numerics;
+  const double of_lattice = lattice_sums(n.kernel, 2, width * n.nodes_per_h).density;
+  const auto& p = sim->particles;
+  const auto h = p.column(Field::smoothing_length);
+  double apart = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (std::abs(p.column(Field::position)[i]) > 0.3) continue;  // mirrors
+    double number = 0;
+    for (std::size_t j = 0; j < p.size(); ++j)
+      for (const double shift : {-height, 0.0, height}) {
+        const Vec<2> x = p.vector(Field::position, j) + Vec<2>(0, shift) - p.vector(Field::position, i);
+        const double reach = width * h[i];
+        number += WendlandC2::norm<2> * WendlandC2::value(x.norm() / reach) / (reach * reach);
+      }
+    EXPECT_NEAR(h[i], n.nodes_per_h * std::sqrt(of_lattice / number), 1e-3 * h[i]) << p.vector(Field::position, i);
+    apart = std::max(apart, std::abs(h[i] / counted->particles.column(Field::smoothing_length)[i] - 1));
+  }
+  EXPECT_EQ(n.kernel, Kernel::wendland_c2);
+  EXPECT_GT(apart, 0.05);
 }
 
 /// A blast that begins in one dimension, and a puff of gas with a profile of its own outside of it.
