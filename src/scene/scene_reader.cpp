@@ -145,8 +145,8 @@ Scene interpret(Document document, const std::vector<std::string>& overrides, co
   Describer description(document);
   describe(description, scene, context.sections);
   read_settings(description, document, problems);
-  // Particles that come and go in a grid, and a pilot density, have volumes that are sums over their neighbours; and the
-  // density of a displaced body is that before.
+  // Particles that come and go in a grid, and a pilot density, have volumes that are sums over their neighbours; and
+  // the density of a displaced body is that before.
   const bool sums = scene.numerics.scheme == SchemeKind::hybrid || is_set(scene.numerics.pilot_width) ||
                     (scene.numerics.godunov() && std::ranges::any_of(scene.bodies, [](const Body& body) {
                        return !body.profile.displacement.empty();

@@ -38,7 +38,8 @@ template <class V>
 V decay(V x) {
   using S = Scalar<V>;
   constexpr double at_the_middle = 0.8688150562628432;  // exp(-9/64)
-  constexpr double coefficients[] = {1. / 362880, 1. / 40320, 1. / 5040, 1. / 720, 1. / 120, 1. / 24, 1. / 6, 0.5, 1, 1};
+  constexpr double coefficients[] = {1. / 362880, 1. / 40320, 1. / 5040, 1. / 720, 1. / 120,
+                                     1. / 24,     1. / 6,     0.5,       1,        1};
   const V t = S(9. / 64) - S(1. / 32) * x;
   V sum{};
   for (const double c : coefficients) sum = sum * t + S(c);
@@ -166,8 +167,8 @@ struct Gaussian {
   static constexpr double support = 3;
   static constexpr double at_the_cut = 1.2340980408667956e-4, erf_3 = 0.99997790950300142;  ///< exp(-9), erf(3)
   template <int Dim>
-  static constexpr double norm = 1 / (std::numbers::pi * (Dim == 2 ? 1 - at_the_cut
-                                                                  : erf_3 / std::numbers::inv_sqrtpi - 6 * at_the_cut));
+  static constexpr double norm = 1 / (std::numbers::pi *
+                                      (Dim == 2 ? 1 - at_the_cut : erf_3 / std::numbers::inv_sqrtpi - 6 * at_the_cut));
   template <class V>
   static V value(V q) {
     using S = kernel_detail::Scalar<V>;

@@ -64,8 +64,12 @@ class PairPassOf final : public PairPass<Dim> {
 
   RecordScales scales() const {
     const GodunovSettings godunov = settings_.godunov.value_or(GodunovSettings{});
-    return {K::template norm<Dim>, K::support,           K::reduced_scale,
-            K::reduced_over_r,     settings_.length_unit, godunov.linear_conduction,
+    return {K::template norm<Dim>,
+            K::support,
+            K::reduced_scale,
+            K::reduced_over_r,
+            settings_.length_unit,
+            godunov.linear_conduction,
             godunov.quadratic_conduction};
   }
   /// Fetches what the next batch will want: `values` from the start of its records on. Inlined by order: GCC takes a
