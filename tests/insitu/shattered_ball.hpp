@@ -20,7 +20,7 @@ struct ShatteredBall {
   std::vector<double> x, y, z, zero, vx, vy, vz, pressure, distension, damage, smoothing_length, mass;
   std::vector<std::int32_t> fragment, body;
   std::vector<double> filling, bodies_of_volume;
-  std::vector<double> slice_pressure, slice_distension, slice_damage;
+  std::vector<double> slice_pressure, slice_distension, slice_damage, slice_filling;
   std::vector<double> fx, fy, fz, fragment_mass;
   std::vector<std::int32_t> fragment_ids;
   int pixels;
@@ -72,8 +72,10 @@ struct ShatteredBall {
     c.extent = {pixels, 1, pixels};
     c.origin = {-slice_half(), 0, -slice_half()};
     c.spacing = {2 * slice_half() / (pixels - 1), 1, 2 * slice_half() / (pixels - 1)};
-    c.fields = {
-        {"pressure", "Pa", {slice_pressure}}, {"distension", "1", {slice_distension}}, {"damage", "1", {slice_damage}}};
+    c.fields = {{"pressure", "Pa", {slice_pressure}},
+                {"distension", "1", {slice_distension}},
+                {"damage", "1", {slice_damage}},
+                {"filling", "1", {slice_filling}}};
     return c;
   }
   Channel volume() const {
@@ -171,6 +173,7 @@ struct ShatteredBall {
       for (int i = 0; i < pixels; ++i) {
         const double px = slice_half() * (2.0 * i / (pixels - 1) - 1), pz = slice_half() * (2.0 * k / (pixels - 1) - 1);
         const bool inside = std::hypot(px, pz) < radius;
+        slice_filling.push_back(inside ? 1 : 0);
         slice_pressure.push_back(inside ? pressure_at(px, 0, pz, age) : nothing);
         slice_damage.push_back(inside ? damage_at(px, 0, pz, age) : nothing);
         slice_distension.push_back(inside ? 3.3 - 2.3 * damage_at(px, 0, pz, age) : nothing);
