@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Picture {
-  std::string step;
+  double time;  ///< s
   fs::path file;
 };
 struct View {
@@ -29,34 +29,34 @@ struct View {
 };
 
 /// Why pictures are left out of movies. One that somebody asked for, or of a place where a run was cut short that has
-/// gone on since, belongs to no schedule; of several schedules only the densest is shown, or time would stumble.
+/// gone on since, belongs to no schedule; of several schedules of a view only the densest is shown, or time would
+/// stumble.
 class OddFrames {
  public:
-  explicit OddFrames(const CsvTable& table) : reason_(table.find("reason")) {
+  explicit OddFrames(const CsvTable& table) : view_(table.find("view")), reason_(table.find("reason")) {
     if (reason_ == CsvTable::npos) return;
-    std::map<std::string, int> schedules;
+    std::map<std::string, std::map<std::string, int>> schedules;  // of each view
     for (const auto& row : table.rows)
-      if (is_schedule(row[reason_])) ++schedules[row[reason_]];
-    if (!schedules.empty())
-      densest_ = std::ranges::max_element(schedules, {}, [](const auto& s) { return s.second; })->first;
+      if (is_schedule(row[reason_])) ++schedules[row[view_]][row[reason_]];
+    for (const auto& [view, count] : schedules)
+      densest_[view] = std::ranges::max_element(count, {}, [](const auto& s) { return s.second; })->first;
   }
   bool hold(const std::vector<std::string>& row) const {
     if (reason_ == CsvTable::npos) return false;  // tables of earlier versions have no reason
     const std::string& reason = row[reason_];
-    return reason == "asked for" || reason == "end" || (is_schedule(reason) && reason != densest_);
+    return reason == "asked for" || reason == "end" || (is_schedule(reason) && reason != densest_.at(row[view_]));
   }
 
  private:
   static bool is_schedule(const std::string& reason) { return reason == "frame" || reason.starts_with("every "); }
-  std::size_t reason_;
-  std::string densest_;
+  std::size_t view_, reason_;
+  std::map<std::string, std::string> densest_;  ///< schedule of a view
 };
 
 /// The views in order of first appearance; images that are not there become problems.
 std::vector<View> read_views(const fs::path& folder, std::vector<std::string>& problems) {
   const CsvTable table = read_csv(folder / "data.csv");
-  const std::size_t view_column = table.find("view"), file_column = table.find("FILE"), step = table.find("step"),
-                    time = table.find("time");
+  const std::size_t view_column = table.find("view"), file_column = table.find("FILE"), time = table.find("time");
   if (view_column == CsvTable::npos || file_column == CsvTable::npos)
     throw InputError((folder / "data.csv").string() + ": expected the columns view and FILE");
   const auto cell = [](const std::vector<std::string>& row, std::size_t column) {
@@ -76,7 +76,7 @@ std::vector<View> read_views(const fs::path& folder, std::vector<std::string>& p
     }
     auto view = std::find_if(views.begin(), views.end(), [&](const View& v) { return v.name == row[view_column]; });
     if (view == views.end()) view = views.insert(views.end(), {row[view_column], {}});
-    view->pictures.push_back({cell(row, step), image});
+    view->pictures.push_back({std::strtod(cell(row, time).c_str(), nullptr), image});
   }
   return views;
 }
@@ -92,13 +92,12 @@ void write_list(const fs::path& file, const std::vector<Picture>& pictures, int 
   }
 }
 
-/// For each picture of `leader` the one of `view` of the same step, or the last one before.
+/// For each picture of `leader` the one of `view` of the same time, or the last one before.
 std::vector<Picture> in_step(const View& view, const View& leader) {
   std::vector<Picture> pictures;
   std::size_t k = 0;
   for (const Picture& picture : leader.pictures) {
-    const auto same = std::ranges::find(view.pictures, picture.step, &Picture::step);
-    if (same != view.pictures.end()) k = static_cast<std::size_t>(same - view.pictures.begin());
+    while (k + 1 < view.pictures.size() && view.pictures[k + 1].time <= picture.time) ++k;
     pictures.push_back(view.pictures[k]);
   }
   return pictures;

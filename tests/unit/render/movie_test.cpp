@@ -6,6 +6,7 @@
 #include <fstream>
 #include <memory>
 
+#include "png.hpp"
 #include "render/canvas.hpp"
 #include "render/process.hpp"
 
@@ -86,6 +87,31 @@ TEST(Movie, AMontageShowsAllViewsAfterTheTitle) {
   EXPECT_EQ(report.movies[2].file.filename(), "montage.mp4");
   // At four frames a second two seconds of title, four frames, and one second of the last.
   EXPECT_EQ(decoded(report.movies[2].file), "1920,540,yuv420p,16\n");
+}
+
+TEST(Movie, ViewsOfSeveralSchedulesKeepTheirFramesAndTheMontageItsTime) {
+  const fs::path run = run_of("ejecta_paces", std::vector<std::string>(8, "every 1 steps"));
+  std::ofstream data(run / "images/data.csv", std::ios::app);
+  for (const int k : {0, 1, 3, 5}) {  // another view, of its own pace, between the steps of the others
+    const std::string file = "surface_" + std::to_string(k) + ".png";
+    write_png(run / "images" / file, Raster(64, 36, k == 5 ? 0xFFFFFFu : 0u));
+    data << k << ',' << k << ",surface,frame," << file << '\n';
+  }
+  data.close();
+  write_title_card(run, "Title", {});
+  const MovieReport report = make_movies(run);
+  ASSERT_EQ(report.movies.size(), 4u) << (report.problems.empty() ? "" : report.problems.back());
+  EXPECT_EQ(report.movies[2].frames, 4u);
+  const fs::path last = run / "last.png";
+  ASSERT_EQ(
+      run_program({"ffmpeg", "-y", "-v", "error", "-sseof", "-1", "-i", "montage.mp4", "-update", "1", last.string()},
+                  run),
+      "");
+  ASSERT_TRUE(fs::exists(last));
+  const Png picture = read_png(last);
+  // Below the first of the two views above: white since step 5, black before.
+  EXPECT_GT(picture.rgb[static_cast<std::size_t>(3 * picture.height / 4 * picture.width + picture.width / 4)] & 255u,
+            200u);
 }
 
 TEST(Movie, AFolderWithoutImagesIsAProblemNotACrash) {
