@@ -58,7 +58,8 @@ struct Cell {
 };
 
 /// Particles sorted into hashed cells, with what every look at them asks for. Two cells may share a bucket: that only
-/// costs a distance check.
+/// costs a distance check. Blocks of 4 x 4 x 4 cells lie together in memory, so that most looks around a particle do
+/// not leave the cache.
 class HashedCells {
  public:
   struct Entry {
@@ -68,7 +69,9 @@ class HashedCells {
   };
 
   HashedCells(const FragmentInput& in, const std::vector<std::uint32_t>& members, const std::vector<Cell>& cell_of)
-      : mask_(std::bit_ceil(members.size() + 1) - 1), start_(mask_ + 2, 0), sorted_(members.size()) {
+      : mask_(std::bit_ceil(std::max<std::size_t>(members.size() + 1, 64)) - 1),
+        start_(mask_ + 2, 0),
+        sorted_(members.size()) {
     for (const std::uint32_t i : members) ++start_[bucket(cell_of[i]) + 1];
     std::partial_sum(start_.begin(), start_.end(), start_.begin());
     std::vector<std::uint32_t> next(start_.begin(), start_.end() - 1);
@@ -81,12 +84,13 @@ class HashedCells {
 
  private:
   std::size_t bucket(const Cell& cell) const {
-    std::uint64_t hash = static_cast<std::uint64_t>(cell.level);
-    for (const std::int64_t index : cell.index) {  // multiply and rotate by odd constants spreads neighbours apart
-      hash = (hash ^ static_cast<std::uint64_t>(index)) * 0x9E3779B97F4A7C15ull;
+    std::uint64_t hash = static_cast<std::uint64_t>(cell.level), within = 0;
+    for (const std::int64_t index : cell.index) {  // multiply and rotate by odd constants spreads blocks apart
+      hash = (hash ^ static_cast<std::uint64_t>(index >> 2)) * 0x9E3779B97F4A7C15ull;
       hash = std::rotl(hash, 29);
+      within = within << 2 | static_cast<std::uint64_t>(index & 3);
     }
-    return static_cast<std::size_t>(hash ^ (hash >> 32)) & mask_;
+    return static_cast<std::size_t>((hash ^ (hash >> 32)) << 6 | within) & mask_;
   }
   std::size_t mask_;
   std::vector<std::uint32_t> start_;
