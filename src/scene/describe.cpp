@@ -89,10 +89,9 @@ void describe(Describer& d, Numerics& n) {
            "where shocks are");
   d.choice("kernel", n.kernel, "smoothing kernel; gaussian, cut off at 3 h: gsph and hybrid alone");
   d.choice("precision", n.precision, "of the pair passes; mixed: pair differences in float, sums and states in double");
-  d.choice(
-      "density", n.density,
-      "continuity for solids; summation for gases only; gsph: continuity is what faces sweep, summation the default "
-      "with pilot_width and displaced bodies, and all that a hybrid has");
+  d.choice("density", n.density,
+           "continuity for solids; summation for gases only; gsph: summation unless given, or continuity by what faces "
+           "sweep");
   d.number("nodes_per_h", n.nodes_per_h, "1", between(1, 4), "particles per smoothing length");
   d.number("smoothing_growth", n.smoothing_growth, "1", at_least(1),
            "of solids: largest h relative to that of the lattice; 1: h constant. A gas may widen it 20 times");

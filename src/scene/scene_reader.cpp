@@ -145,13 +145,9 @@ Scene interpret(Document document, const std::vector<std::string>& overrides, co
   Describer description(document);
   describe(description, scene, context.sections);
   read_settings(description, document, problems);
-  // Particles that come and go in a grid, and a pilot density, have volumes that are sums over their neighbours; and
-  // the density of a displaced body is that before.
-  const bool sums = scene.numerics.scheme == SchemeKind::hybrid || is_set(scene.numerics.pilot_width) ||
-                    (scene.numerics.godunov() && std::ranges::any_of(scene.bodies, [](const Body& body) {
-                       return !body.profile.displacement.empty();
-                     }));
-  if (sums && !document.items.contains("numerics.density")) scene.numerics.density = DensityMethod::summation;
+  // Riemann problems are of gases, whose volumes are sums over their neighbours unless asked otherwise.
+  if (scene.numerics.godunov() && !document.items.contains("numerics.density"))
+    scene.numerics.density = DensityMethod::summation;
   if (!context.fields.empty()) check_ranges(document, context.fields, problems);
   find_pipelines(scene, document, problems);
   find_measured(scene, document, problems);

@@ -33,8 +33,8 @@ TEST(ReadScene, RiemannProblemsTakeSummedDensitiesUnlessAskedOtherwise) {
     return parse_scene(valid_scene + "[numerics]\n" + numerics, "s.toml").numerics.density;
   };
   EXPECT_EQ(density("scheme = \"sph\"\n"), DensityMethod::continuity);
-  EXPECT_EQ(density("scheme = \"gsph\"\n"), DensityMethod::continuity);
-  EXPECT_EQ(density("scheme = \"gsph\"\ndensity = \"summation\"\n"), DensityMethod::summation);
+  EXPECT_EQ(density("scheme = \"gsph\"\n"), DensityMethod::summation);
+  EXPECT_EQ(density("scheme = \"gsph\"\ndensity = \"continuity\"\n"), DensityMethod::continuity);
   EXPECT_EQ(density("scheme = \"gsph\"\npilot_width = 2.5\n"), DensityMethod::summation);
   EXPECT_EQ(density("scheme = \"hybrid\"\n"), DensityMethod::summation);
 }

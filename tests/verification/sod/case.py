@@ -84,18 +84,18 @@ class SodGamma53(Sod):
 
 
 class SodRiemann(Sod):
-    """Resolution: particles in the 0.5 m of dense gas. Limits: measured and 15 %, of L2 what is asked."""
+    """Resolution: particles in the 0.5 m of dense gas. Limits: measured and 15 %. Densities by summation, as by default."""
     name = "sod_gsph"
     title = "Sod's shock tube with Riemann problems between particles"
     scene = "gsph.toml"
-    quick, full = (100, 128, 200), (50, 100, 128, 200, 400)
+    quick, full = (100, 200), (50, 100, 200, 400)
     bounds = (
-        Bound("density", "relative L2", {128: 0.015}, 0.5),
-        Bound("density", "L1", {100: 0.0066, 200: 0.0035}, 0.85),
-        Bound("velocity", "L1", {100: 0.0158, 200: 0.0081}, 0.85),
-        Bound("pressure", "L1", {100: 0.0073, 200: 0.0036}, 0.85),
+        Bound("density", "relative L2", {100: 0.0265, 200: 0.0178}, 0.5),
+        Bound("density", "L1", {100: 0.0078, 400: 0.002}, 0.85),
+        Bound("velocity", "L1", {100: 0.0143, 400: 0.0036}, 0.85),
+        Bound("pressure", "L1", {100: 0.0069, 400: 0.0017}, 0.85),
         Bound("shock position", "spacings", 0.5, why="far sharper than the shock is resolved, and in spacings"),
-        Bound("contact position", "spacings", 0.82, why="measured and 15 %"),
+        Bound("contact position", "spacings", 1.2, why="1.04: neighbours count by volume, whose sizes differ there"),
     )
     mixed_margin = "Riemann problems are solved in double precision"
 
@@ -108,22 +108,23 @@ class SodRiemann(Sod):
         return {("density", "relative L2"): error, **super().errors(run, resolution)}
 
 
-class SodRiemannSummed(SodRiemann):
-    """Resolution: particles in the 0.5 m of dense gas. Limits: measured and 15 %."""
-    name = "sod_gsph_summed"
-    title = "Sod's shock tube with Riemann problems between particles, densities by summation"
-    quick, full = (100, 200), (50, 100, 200, 400)
+class SodRiemannSwept(SodRiemann):
+    """Resolution: particles in the 0.5 m of dense gas. Limits: measured and 15 %, of L2 what is asked. At 400 the density
+    is no better than at 200 (L2 0.0127, L1 0.0023): that is why these volumes are not the default."""
+    name = "sod_gsph_swept"
+    title = "Sod's shock tube with Riemann problems between particles, densities by what faces sweep"
+    quick, full = (100, 128, 200), (50, 100, 128, 200)
     bounds = (
-        Bound("density", "relative L2", {100: 0.0265, 200: 0.0178}, 0.5),
-        Bound("density", "L1", {100: 0.0078, 400: 0.002}, 0.85),
-        Bound("velocity", "L1", {100: 0.0143, 400: 0.0036}, 0.85),
-        Bound("pressure", "L1", {100: 0.0069, 400: 0.0017}, 0.85),
+        Bound("density", "relative L2", {128: 0.015}, 0.5),
+        Bound("density", "L1", {100: 0.0066, 200: 0.0035}, 0.85),
+        Bound("velocity", "L1", {100: 0.0158, 200: 0.0081}, 0.85),
+        Bound("pressure", "L1", {100: 0.0073, 200: 0.0036}, 0.85),
         Bound("shock position", "spacings", 0.5, why="far sharper than the shock is resolved, and in spacings"),
-        Bound("contact position", "spacings", 1.2, why="1.04: neighbours count by volume, whose sizes differ there"),
+        Bound("contact position", "spacings", 0.82, why="measured and 15 %"),
     )
 
     def settings(self, resolution):
-        return {**super().settings(resolution), "numerics.density": "summation"}
+        return {**super().settings(resolution), "numerics.density": "continuity"}
 
 
 class SodMyers(SodRiemann):
@@ -146,4 +147,4 @@ class SodMyers(SodRiemann):
                 "numerics.pilot_width": 2.5, "numerics.linear_conduction": 0.25, "numerics.quadratic_conduction": 0.5}
 
 
-CASES = [Sod(), SodGamma53(), SodRiemann(), SodRiemannSummed(), SodMyers()]
+CASES = [Sod(), SodGamma53(), SodRiemann(), SodRiemannSwept(), SodMyers()]
