@@ -293,7 +293,11 @@ void check_temperature(const MaterialSettings& s, const Report& report) {
 }  // namespace
 
 void choose_models(MaterialSettings& settings, Document& document, Problems& problems) {
-  // The place of the model's word among the known ones; nothing where the section, which may miss, is not there.
+  const auto forget = [&](const std::string& section) {
+    std::erase_if(document.items, [&](const auto& entry) { return entry.first.starts_with(section + "."); });
+  };
+  // The place of the model's word among the known ones; nothing where the section, which may miss, is not there. A
+  // section without a model is as good as none: its constants may stay, so that --set can switch a model off.
   const auto choose = [&](const std::string& section, const std::vector<std::string>& known,
                           bool may_miss = true) -> std::optional<std::size_t> {
     const std::string path = section + ".model";
@@ -301,11 +305,14 @@ void choose_models(MaterialSettings& settings, Document& document, Problems& pro
     const auto item = document.items.find(path);
     const auto* name = item == document.items.end() ? nullptr : std::get_if<std::string>(&item->second.literal.value);
     const auto found = name ? std::ranges::find(known, *name) : known.end();
-    if (found != known.end()) return static_cast<std::size_t>(found - known.begin());
+    if (found != known.end()) {
+      if (*found == "none") forget(section);
+      return static_cast<std::size_t>(found - known.begin());
+    }
     problems.add(document.origin(path), path,
                  fmt::format("expected one of {}, got {}", fmt::join(known, ", "),
                              item == document.items.end() ? "nothing" : to_text(item->second.literal)));
-    std::erase_if(document.items, [&](const auto& entry) { return entry.first.starts_with(section + "."); });
+    forget(section);
     return std::nullopt;
   };
   if (const auto k = choose("eos", words(eos_models), false)) settings.eos = eos_models[*k].initial;

@@ -155,6 +155,15 @@ friction_angle = "30 deg"
   EXPECT_NEAR(std::get<DruckerPrager>(*pumice.strength).friction_angle, 0.5235987755982988, 1e-15);
 }
 
+TEST(ReadMaterial, ASectionWithoutModelIsAsGoodAsNone) {
+  const auto off = [](const std::string& section, const std::string& constants) {
+    return read_material("m", {}, parse_document(tillotson + elastic + section + "model = \"none\"\n" + constants, "m"));
+  };
+  EXPECT_FALSE(off("[strength]\n", "yield_stress = \"1 GPa\"\n").strength);
+  EXPECT_FALSE(off("[damage]\n", "weibull_m = 9\nweibull_k = \"5e34 1/m^3\"\n").damage);
+  EXPECT_FALSE(off("[porosity]\n", "initial_distension = 3\n").porosity);
+}
+
 TEST(ReadMaterial, RefusesWithReason) {
   EXPECT_EQ(problems_of([] {
               read_material("unobtainium", {"a", "b"});
