@@ -2,7 +2,7 @@
 /// Thermodynamics of the cells, several at a time: a policy of the sweep (tile_sweep.hpp). A policy has
 ///   carries_energy   whether the specific energy is one of the primitives, after the pressure
 ///   extras           planes that complete() fills beside the primitives
-///   sound2(w, x)     sound speed squared of primitives w in a cell whose extras are x
+///   sound2(w, x, v)  sound speed squared of primitives w in a cell whose extras are x; v = 1/rho
 ///   energy(w)        per volume, kinetic energy included
 ///   changed(w, x, d) primitives after a change d of the conserved ones, and whether they can be
 #include <cstring>
@@ -47,8 +47,8 @@ struct IdealLanes {
   explicit IdealLanes(const IdealGas& gas) : gamma(gas.gamma) {}
 
   template <int Dim>
-  V sound2(const V* w, const V*) const {
-    return gamma * w[pressure_at<Dim>] * simd::reciprocal(w[0]);
+  V sound2(const V* w, const V*, V volume) const {
+    return gamma * w[pressure_at<Dim>] * volume;
   }
   template <int Dim>
   V energy(const V* w) const {
@@ -86,7 +86,7 @@ struct GeneralLanes {
   explicit GeneralLanes(const Eos& of) : eos(of) {}
 
   template <int Dim>
-  V sound2(const V*, const V* x) const {
+  V sound2(const V*, const V* x, V) const {
     return x[0];
   }
   template <int Dim>

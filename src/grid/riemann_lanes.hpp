@@ -24,12 +24,14 @@ template <int Dim, int n, class Gas>
   const V *l = left.w, *r = right.w;
   const V ul = l[1 + n], ur = r[1 + n];
   constexpr double guard = 1e-200;  // cold matter has a speed of sound too, so that nothing is divided by 0
-  const V c2l = gas.template sound2<Dim>(l, left.x) + guard, c2r = gas.template sound2<Dim>(r, right.x) + guard;
-  const V root_l = simd::square_root(l[0]), root_r = simd::square_root(r[0]);
-  const V share = simd::reciprocal(V(root_l + root_r)), apart = ur - ul;
-  const V mean_u = (root_l * ul + root_r * ur) * share;
-  const V mean_c = simd::square_root(
-      V((root_l * c2l + root_r * c2r) * share + 0.5 * (root_l * root_r) * (share * share) * (apart * apart)));
+  const V per_both = simd::reciprocal(V(l[0] * r[0]));  // quotients and roots are what faces cost: few of them
+  const V c2l = gas.template sound2<Dim>(l, left.x, V(r[0] * per_both)) + guard;
+  const V c2r = gas.template sound2<Dim>(r, right.x, V(l[0] * per_both)) + guard;
+  // Means of Roe, weights sqrt(rho) each, both multiplied with sqrt(rho_l) + sqrt(rho_r).
+  const V root = simd::square_root(V(l[0] * r[0])), weight_l = l[0] + root, weight_r = r[0] + root;
+  const V share = simd::reciprocal(V(weight_l + weight_r)), apart = ur - ul;
+  const V mean_u = (weight_l * ul + weight_r * ur) * share;
+  const V mean_c = simd::square_root(V((weight_l * c2l + weight_r * c2r + 0.5 * root * apart * apart) * share));
   return {simd::min(V(ul - simd::square_root(c2l)), V(mean_u - mean_c)),
           simd::max(V(ur + simd::square_root(c2r)), V(mean_u + mean_c))};
 }
@@ -62,13 +64,15 @@ template <int Dim, int n, class Gas>
   const V ul = l[1 + n], ur = r[1 + n];
   const auto [sl, sr] = outer_waves<Dim, n>(gas, left, right);
   const V al = l[0] * (sl - ul), ar = r[0] * (sr - ur);  // mass through either wave
-  const V contact = (r[p] - l[p] + al * ul - ar * ur) * simd::reciprocal(V(al - ar));
-  const auto from_left = contact >= 0;
+  const V force = r[p] - l[p] + al * ul - ar * ur, mass = al - ar;  // the contact runs at force/mass, mass < 0
+  const auto from_left = force <= 0;
   V w[Side<Dim, Gas>::values];
   for (int k = 0; k < Side<Dim, Gas>::values; ++k) w[k] = from_left ? l[k] : r[k];
   const V s = from_left ? sl : sr;
   const V clipped = from_left ? simd::min(sl, V{}) : simd::max(sr, V{});  // 0: the wave does not reach the face
-  const V u = w[1 + n], per_wave = simd::reciprocal(V(s - contact)), squeezed = (s - u) * per_wave;
+  const V ahead = s * mass - force, per_both = simd::reciprocal(V(mass * ahead));
+  const V contact = force * ahead * per_both, per_wave = mass * mass * per_both;  // 1/(s - contact)
+  const V u = w[1 + n], squeezed = (s - u) * per_wave;
   const V density = w[0] * squeezed, energy = gas.template energy<Dim>(w);
   flux[0] = w[0] * u + clipped * (density - w[0]);
   for (int a = 0; a < Dim; ++a) flux[1 + a] = flux[0] * w[1 + a];

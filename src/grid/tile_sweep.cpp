@@ -282,7 +282,7 @@ void Sweep<Dim, Gas, limiter, solver>::predict(const Tile<Dim>& tile, int k) {
       if (flattening_) flat = simd::min(flat, shock.flat);
       store(strong(k, a) + at, smearing_ ? shock.strong : V{});
     }
-    const V stiffness = w[0] * gas_.template sound2<Dim>(w, x), volume = simd::reciprocal(w[0]);
+    const V volume = simd::reciprocal(w[0]), stiffness = w[0] * gas_.template sound2<Dim>(w, x, volume);
     for_axes<Dim>([&](auto axis) __attribute__((always_inline)) {
       constexpr int a = axis;
       V s[W], upper[W], lower[W];
@@ -404,7 +404,7 @@ void Sweep<Dim, Gas, limiter, solver>::judge(const V (&u)[C], int lanes, std::si
   V sound;
   if constexpr (!Gas::carries_energy) {
     gas_.template from_conserved<Dim>(u, w);
-    sound = simd::square_root(gas_.template sound2<Dim>(w, x));
+    sound = simd::square_root(gas_.template sound2<Dim>(w, x, simd::reciprocal(w[0])));
   } else {
     for (int a = 0; a < Dim; ++a) w[1 + a] = u[1 + a] * simd::reciprocal(u[0]);
     sound = V{};
