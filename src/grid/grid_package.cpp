@@ -14,7 +14,7 @@ namespace ejecta {
 namespace {
 
 /// Of one core, measured in 2D and 3D with an ideal gas (tests/performance, AVX-512).
-constexpr double cell_steps_per_s[] = {15e6, 6.2e6};
+constexpr double cell_steps_per_s[] = {20e6, 9.5e6};
 
 /// The box of the scene, or where it grows with a blast what that will sweep; of a blast half of it is at rest on the
 /// average, and signals behind its shock are 1.3 times as fast as that.

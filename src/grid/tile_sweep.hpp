@@ -30,11 +30,11 @@ struct Tile {
   std::array<int, Dim> begin, count;
 };
 
-/// Largest extents of a tile. One cell less than registers hold, along the first axis, as faces are one more.
+/// Largest extents of a tile. Its rows fill registers with one cell before them and one after.
 template <int Dim>
 constexpr std::array<int, Dim> tile_shape() {
   if constexpr (Dim == 2)
-    return {62, 48};
+    return {126, 24};
   else
     return {30, 14, 32};
 }
