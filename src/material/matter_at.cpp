@@ -80,9 +80,9 @@ std::optional<Matter<Dim>> MatterAt<Dim>::operator()(const Vec<Dim>& x) const {
   for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {
     const Body& body = scene_.bodies[b];
     const bool background = body.implied && body.name == Gas::name;
-    const Vec<Dim> d = x - first_components<Dim>(body.center);
+    const Vec<Dim> image = nearest_image<Dim>(scene_.boundary, body, x), d = image - first_components<Dim>(body.center);
     if (!background && !with_shape<Dim>(body, [&](const auto& shape) { return shape.contains(d); })) continue;
-    Matter<Dim> m = of_body(b, x);
+    Matter<Dim> m = of_body(b, image);
     if (around_) set_around(m, x);
     return m;
   }

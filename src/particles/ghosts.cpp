@@ -1,5 +1,8 @@
 #include "particles/ghosts.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace ejecta {
 
 namespace {
@@ -116,7 +119,9 @@ void wrap_positions(Particles<Dim>& particles, const Boundary& boundary) {
     if (!boundary.periodic(k)) continue;
     const double length = boundary.length(k);
     for (std::size_t i = 0; i < x.size(); ++i) {
-      const double shift = x[i] < low ? length : x[i] >= low + length ? -length : 0;
+      double shift = 0;  // one period, but for a body that begins further off
+      if (x[i] < low) shift = length * std::max(1.0, std::ceil((low - x[i]) / length));
+      if (x[i] >= low + length) shift = -length * std::max(1.0, std::floor((x[i] - low) / length));
       if (shift == 0) continue;
       x[i] += shift;
       if (particles.has(Field::start_position)) particles.column(Field::start_position, a)[i] += shift;

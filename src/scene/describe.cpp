@@ -280,7 +280,9 @@ void describe(Describer& d, Scene& s, const std::vector<SceneSection>& sections)
   if (s.gas) d.section("gas", "fills the boundary box wherever no body is", [&] { describe(d, *s.gas); });
   d.section("numerics", "how the equations are solved");
   describe(d, s.numerics);
-  d.section("boundary", "faces of a box around everything");
+  d.section("boundary",
+            "faces of a box around everything; what bodies have beyond them is cut off, and behind a periodic one "
+            "comes in at the other");
   describe(d, s.boundary);
   d.section("contact", "bodies and walls that touch: they press and part, and slide or rub");
   describe(d, s.contact);

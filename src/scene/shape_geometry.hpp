@@ -15,6 +15,20 @@ Vec<Dim> first_components(const Triple& t) {
   return Eigen::Map<const Vec<Dim>>(t.data());
 }
 
+/// A place [m], moved by whole periods to where it is nearest to the centre of the body: what a body has beyond a
+/// periodic face comes in at the other one.
+template <int Dim>
+Vec<Dim> nearest_image(const Boundary& boundary, const Body& body, const Vec<Dim>& x) {
+  Vec<Dim> image = x;
+  for (int a = 0; a < Dim; ++a) {
+    const auto k = static_cast<std::size_t>(a);
+    if (!boundary.periodic(k)) continue;
+    const double length = boundary.length(k);
+    image[a] -= length * std::floor((x[a] - body.center[k]) / length + 0.5);
+  }
+  return image;
+}
+
 /// A length of a body that lies between two faces: along an edge of a box or the axis of a cylinder (rank 1), or the
 /// distance from that axis or from the centre (rank 2 or 3).
 template <int Dim>

@@ -7,6 +7,7 @@
 
 #include "base/errors.hpp"
 #include "base/random.hpp"
+#include "scene/shape_geometry.hpp"
 #include "sph/shells.hpp"
 
 namespace ejecta {
@@ -23,11 +24,15 @@ namespace {
 /// Bodies touch that share no more than this of a particle: what scaling the cloud of a round body may move it by.
 constexpr double touching = 0.25;
 
-/// Whether a point is beyond no face of the boundary.
+/// Whether a point of a body is beyond no face of the boundary. Behind a periodic one a body goes on until it would
+/// meet itself.
 template <int Dim>
-bool within(const Boundary& boundary, const Vec<Dim>& x) {
-  for (std::size_t a = 0; a < Dim; ++a)
-    if (!boundary.within(a, x[a])) return false;
+bool within(const Boundary& boundary, const Body& body, const Vec<Dim>& x) {
+  const Vec<Dim> image = nearest_image<Dim>(boundary, body, x);
+  for (int a = 0; a < Dim; ++a) {
+    const auto k = static_cast<std::size_t>(a);
+    if (boundary.periodic(k) ? image[a] != x[a] : !boundary.within(k, x[a])) return false;
+  }
   return true;
 }
 
@@ -57,7 +62,8 @@ Mat<Dim> shape_of(const ShellCell<Dim>& cell) {
   return across * std::pow(cube / cell.thickness, 2) + (Mat<Dim>::Identity() - across) * std::pow(cube / along, 2);
 }
 
-/// Where the particles of a body stand: the lattice cut by the shape and the boundary box, then moved.
+/// Where the particles of a body stand: the lattice cut by the shape and the boundary box, then moved. Those beyond a
+/// periodic face are put in at the other one by the first step's neighbours, so that formulas see one body.
 template <int Dim>
 std::vector<Placement<Dim>> fill_body(const Scene& scene, std::size_t b, const Material& material, int number) {
   const Body& body = scene.bodies[b];
@@ -69,7 +75,7 @@ std::vector<Placement<Dim>> fill_body(const Scene& scene, std::size_t b, const M
   std::vector<Placement<Dim>> placements;
   for (std::size_t k = 0; k < cloud.points.size(); ++k) {
     const Vec<Dim>& site = cloud.points[k];
-    if (!within<Dim>(scene.boundary, site)) continue;
+    if (!within<Dim>(scene.boundary, body, site)) continue;
     const double width = std::pow(cloud.volume_of(k), 1.0 / Dim);
     Placement<Dim> s{site, site, cloud.volume_of(k), width, uniform, static_cast<int>(b), number};
     if (!cloud.cells.empty()) s.shape = shape_of(cloud.cells[k]);
@@ -109,15 +115,17 @@ std::vector<Placement<Dim>> place_bodies(const Scene& scene, const std::vector<M
     auto placements = fill_body<Dim>(scene, b, materials[static_cast<std::size_t>(body_material[b])], body_material[b]);
     if (body.name == Gas::name && body.implied)  // it yields to whatever is there
       std::erase_if(placements, [&](const Placement<Dim>& s) {
-        return std::any_of(scene.bodies.begin(), scene.bodies.begin() + static_cast<std::ptrdiff_t>(b),
-                           [&](const Body& other) { return inside<Dim>(other, s.site); });
+        return std::any_of(
+            scene.bodies.begin(), scene.bodies.begin() + static_cast<std::ptrdiff_t>(b),
+            [&](const Body& other) { return inside<Dim>(other, nearest_image<Dim>(scene.boundary, other, s.site)); });
       });
     if (placements.empty())
       report(fmt::format("expected room for at least one particle, got none at a spacing of {:.4g} m",
                          scene.spacing * body.spacing_factor));
     for (std::size_t other = 0; other < b; ++other) {
       const auto shared = std::ranges::count_if(placements, [&](const Placement<Dim>& s) {
-        return depth<Dim>(scene.bodies[other], s.site) > touching * s.spacing;
+        const Body& earlier = scene.bodies[other];
+        return depth<Dim>(earlier, nearest_image<Dim>(scene.boundary, earlier, s.site)) > touching * s.spacing;
       });
       if (shared > 0)
         report(fmt::format("expected a body clear of all earlier ones, got an overlap of {} particles with {}", shared,

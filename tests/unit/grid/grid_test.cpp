@@ -235,6 +235,45 @@ TEST(Grid, RowsThatAShockRunsAlongStayTogether) {
   EXPECT_GT(rows_apart({"grid.smearing=false"}), 0.02);
 }
 
+/// What sticks out of a periodic face comes in at the other one.
+TEST(Grid, BodiesGoOnBehindPeriodicFaces) {
+  const auto sums = [](double x) {
+    const auto grid = make_grid<2>(R"([scene]
+name = "across"
+dimension = 2
+[resolution]
+spacing = "0.1 m"
+[time]
+end = "1 s"
+[numerics]
+scheme = "fvm"
+[gas]
+pressure = "1 Pa"
+density = "1 kg/m^3"
+[[bodies]]
+name = "disc"
+material = "air"
+shape = "disc"
+radius = "0.5 m"
+density = "2 kg/m^3"
+[bodies.profile]
+velocity = ["1 + r", "0"]
+[boundary]
+x = "periodic"
+min = ["-1 m", "-1 m"]
+max = ["1 m", "1 m"]
+)",
+                                   {fmt::format("bodies.disc.center=[\"{} m\", \"0 m\"]", x)});
+    return grid->conserved();
+  };
+  const auto middle = sums(0);
+  for (const double x : {-1.0, 0.7, 3.2}) {
+    const auto across = sums(x);
+    EXPECT_NEAR(across.mass, middle.mass, 1e-12 * middle.mass) << x;
+    EXPECT_NEAR(across.momentum[0], middle.momentum[0], 1e-12 * middle.momentum[0]) << x;
+  }
+}
+
 /// Two streams part at 10 sound speeds: a near vacuum is left between them (Toro 2009, sect. 4.6).
 TEST(Grid, NearVacuumSurvives) {
   const auto grid = make_grid<2>(gas_box(2, "\"1 m\", \"0.04 m\"", 0.01, 0.03, R"([bodies.profile]
