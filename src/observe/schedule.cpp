@@ -35,12 +35,20 @@ RowTimes::RowTimes(double interval, const std::vector<double>& times, const std:
   pass(resume_at->before);
   const bool due = pass(resume_at->time) || resume_at->step == 0;
   kept_until_ = due ? resume_at->time : std::nextafter(resume_at->time, 0);
+  if (due) written_ = resume_at->step;
 }
 
 bool RowTimes::pass(double time) {
   const bool asked = times_.pass(time), due = time >= next_;
   while (next_ <= time) next_ += interval_;
   return asked || due;
+}
+
+bool RowTimes::take(const Clock& clock, bool last) {
+  const bool due = pass(clock.time);
+  if ((!due && !last) || clock.step == written_) return false;
+  written_ = clock.step;
+  return true;
 }
 
 Trigger::Trigger(std::vector<double> times, std::string reason) : times_(std::move(times)), reason_(std::move(reason)) {

@@ -46,6 +46,8 @@ class RowTimes {
   double next_row() const { return next_; }
   /// Whether a row is due at the end of a step [s].
   bool pass(double time);
+  /// Whether to write a row at the end of a step: it is due, or the last one, and not there yet.
+  bool take(const Clock& clock, bool last);
   /// Rows later than this belong to no schedule and are dropped after a restart [s]: they were written after the
   /// checkpoint, or because the run was cut short there. Nothing if there was no restart.
   const std::optional<double>& kept_until() const { return kept_until_; }
@@ -54,6 +56,7 @@ class RowTimes {
   double interval_, next_ = 0;  // s
   OutputTimes times_;
   std::optional<double> kept_until_;
+  std::int64_t written_ = -1;  ///< step of the last row
 };
 
 /// Where a run is, for whoever waits for something.

@@ -23,8 +23,7 @@ void Shocks::observe(Simulation& sim, bool last) {
   if (times_.pass(sim.clock.time) || last)
     sim.timers.time("tables",
                     [&] { outputs_.write("lineouts", Outputs::Loss::for_good, [&] { write_lineouts(sim); }); });
-  if ((!due_.pass(sim.clock.time) && !last) || sim.clock.step == written_) return;
-  written_ = sim.clock.step;
+  if (!due_.take(sim.clock, last)) return;
   sim.timers.time("tables", [&] { outputs_.write("shock.csv", Outputs::Loss::until_next, [&] { write_row(sim); }); });
 }
 

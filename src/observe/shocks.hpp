@@ -26,7 +26,6 @@ class Shocks final : public Observer {
   Outputs& outputs_;
   std::optional<CsvWriter> rows_;  ///< of shock.csv
   RowTimes due_;
-  std::int64_t written_ = -1;  ///< step of the last row
   OutputTimes times_;          ///< of line-outs
 };
 

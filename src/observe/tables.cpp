@@ -65,8 +65,7 @@ Tables::Tables(const Scene& scene, const std::filesystem::path& folder, Frames& 
 }
 
 void Tables::observe(Simulation& sim, bool last) {
-  if ((!due_.pass(sim.clock.time) && !last) || sim.clock.step == written_) return;
-  written_ = sim.clock.step;
+  if (!due_.take(sim.clock, last)) return;
   sim.timers.time("tables", [&] {
     outputs_.write("history.csv", Outputs::Loss::until_next,
                    [&] { history_.write(quantities(sim, frames_, context_)); });

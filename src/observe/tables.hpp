@@ -32,7 +32,6 @@ class Tables final : public Observer {
   FragmentContext context_;
   History history_;
   std::optional<LargestFragmentHistory> largest_;
-  std::int64_t written_ = -1;  ///< step of the last row
   bool warned_ = false;  ///< that angular momentum drifts
 };
 

@@ -78,6 +78,16 @@ class RestartRules(RunTest):
         whole = self.run_scene(IMPACT_2D, "whole", {**COARSE, "time.end": "10us"})
         self.assertEqual((out / "history.csv").read_bytes(), (whole / "history.csv").read_bytes())
 
+    def test_a_run_that_has_ended_has_each_row_once(self):
+        # Of rows that are due at the end, and of a last row that is there for the end alone.
+        for interval in ("5us", "3us"):
+            values = {**COARSE, "time.end": "10us", "output.times": '["10us"]' if interval == "5us" else "[]",
+                      "output.history_interval": interval}
+            rows = (self.run_scene(IMPACT_2D, interval, values) / "history.csv").read_bytes()
+            for _ in range(2):
+                out = self.run_scene(IMPACT_2D, interval, values, "--restart")
+                self.assertEqual((out / "history.csv").read_bytes().count(b"\n"), rows.count(b"\n"))
+
     def test_what_may_change(self):
         self.run_scene(IMPACT_2D, "run", {**COARSE, "time.max_steps": 5})
         free = {"time.end": "200us", "time.max_steps": 8, "scene.title": "Again", "insitu.frames": 7, "run.threads": 2,

@@ -145,6 +145,21 @@ TEST(RowTimes, ARowThatOnlyAStopHasAddedIsDropped) {
   EXPECT_TRUE(between.pass(1.5));
 }
 
+TEST(RowTimes, ARowIsWrittenOnceThoughTheRunIsRestarted) {
+  const Clock end{3, 0.75, 4, 2.25};
+  for (const double interval : {1.0, 0.7}) {  // due at the end, and not
+    RowTimes whole(interval, {}, {});
+    EXPECT_TRUE(whole.take(Clock{}, false));
+    EXPECT_TRUE(whole.take(end, true));
+    EXPECT_FALSE(whole.take(end, true));
+    RowTimes resumed(interval, {}, end);
+    EXPECT_EQ(resumed.take(end, true), resumed.kept_until() != end.time) << interval;
+  }
+  RowTimes resumed(1, {}, Clock{2.25, 0.75, 3, 1.5});
+  EXPECT_FALSE(resumed.take(Clock{2.25, 0.75, 3, 1.5}, false));
+  EXPECT_TRUE(resumed.take(end, true));
+}
+
 TEST(RowTimes, ARestartAgreesWithTheRunThatWentOnWhereverStepsEnd) {
   // Steps that end at, or next to, the times of rows: sums of 3e-6 are not multiples of it.
   const double interval = 3e-6;
