@@ -37,7 +37,11 @@ std::vector<double> round_ticks(double min, double max, int count) {
   return ticks;
 }
 
-std::string short_number(double value) { return fmt::format("{:.4g}", std::abs(value) < 1e-300 ? 0.0 : value); }
+std::string short_number(double value) {
+  const double size = std::abs(value);
+  if (size >= 1e4 && size < 1e6) return fmt::format("{:.0f}", value);
+  return fmt::format("{:.4g}", size < 1e-300 ? 0.0 : value);
+}
 
 std::string time_text(double time, double end) {
   const DisplayUnit unit = display_unit(end, "s");

@@ -37,7 +37,8 @@ Grid<Dim>::Grid(const Scene& scene, const std::vector<Material>& materials, cons
     const CellState<Dim> s = state(i);
     const double speed = s.velocity.norm();
     outset_.density = std::max(outset_.density, s.density);
-    outset_.pressure = std::max({outset_.pressure, s.pressure, s.density * speed * speed});
+    const double impedance = material_.gas() ? s.density * speed : s.density * std::max(speed, s.sound_speed);
+    outset_.pressure = std::max({outset_.pressure, s.pressure, impedance * speed});
     outset_.speed = std::max(outset_.speed, speed);
     outset_.mach = std::max(outset_.mach, speed / s.sound_speed);
   }

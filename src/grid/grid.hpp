@@ -16,7 +16,7 @@ namespace ejecta {
 /// Largest values at the start.
 struct GridOutset {
   double density = 0;   ///< kg/m^3
-  double pressure = 0;  ///< of the state or of what rams it, rho u^2 [Pa]
+  double pressure = 0;  ///< of the state or of what rams it: rho u^2, of a liquid rho u c [Pa]
   double speed = 0;     ///< m/s
   double mach = 0;      ///< u/c
 };

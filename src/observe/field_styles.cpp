@@ -88,6 +88,9 @@ void add_strengths(Extremes& e, const Scene& scene, const std::vector<Material>&
 /// range at the latest: shocks and waves of all strengths are seen.
 constexpr double linear_part = 0.03;
 
+/// What an explosive drives, such as water around it, is seen down to this part of the pressure at its front.
+constexpr double driven_part = 1e-3;
+
 /// Away from zero to two digits: ends of a colour bar that nobody has given are round.
 double rounded(double value) {
   if (value == 0 || !std::isfinite(value)) return value;
@@ -104,6 +107,12 @@ Extremes extremes(const Scene& scene, const std::vector<Material>& materials, co
   const double speed = outset.speed > 0 ? outset.speed : std::sqrt(outset.pressure / outset.density);
   Extremes e{outset.pressure, outset.density, speed, distension, std::clamp(scene.numerics.largest_aspect, 1.5, 4.0)};
   add_strengths(e, scene, materials);
+  for (const Material& m : materials)
+    if (const auto explosive = m.explosive()) {
+      const double front = m.bulk_density() * std::pow(explosive->detonation_speed, 2) * explosive->cj_compression;
+      const double onset = driven_part * front;
+      e.onset = is_set(e.onset) ? std::min(e.onset, onset) : onset;
+    }
   if (!materials.empty() && std::ranges::all_of(materials, &Material::solid)) e.least_density = 0.5 * e.density;
   return e;
 }

@@ -181,7 +181,8 @@ void describe(Describer& d, InSitu& i) {
   d.integer("image_height", i.image_height, between(64, 8192), "pixels");
   d.triple("view_center", i.view_center, "m", "middle of the images; else of the bodies that move least");
   d.number("view_size", i.view_size, "m", positive,
-           "visible width at least; else 1.6 times the extent of the slowest bodies, 3 times with detonators");
+           "visible width at least; else 1.6 times the extent of the slowest bodies, 3 times with detonators, and half "
+           "as much again for others that begin near");
   d.number("view_height", i.view_height, "m", positive, "visible height at least; else view_size");
   d.map("ranges", i.ranges, "<field>", "field name = fixed colour range",
         [&](const std::string& field, ColourRange& r) {

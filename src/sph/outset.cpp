@@ -30,12 +30,16 @@ Outset outset(const Particles<Dim>& p, const Scene& scene, const std::vector<Mat
   }
   for (BodyAtOutset& body : start.bodies) body.velocity /= body.mass;
 
+  Vec<Dim> frame = momentum / mass;
+  for (std::size_t a = 0; a < Dim; ++a)
+    if (mirrors(scene.boundary.lower[a]) || mirrors(scene.boundary.upper[a])) frame[static_cast<int>(a)] = 0;
   double relative_speed = 0;
   for (std::size_t i = 0; i < p.size(); ++i) {
     const Vec<Dim> v = p.vector(Field::velocity, i);
     start.speed = std::max(start.speed, v.norm());
-    relative_speed = std::max(relative_speed, (v - momentum / mass).norm());
+    relative_speed = std::max(relative_speed, (v - frame).norm());
   }
+  if (relative_speed < 1e-9 * start.speed) relative_speed = 0;  // what the sum has rounded
   for (const Material& material : materials)
     if (const auto explosive = material.explosive()) {
       const double density = material.bulk_density(), D = explosive->detonation_speed, s = explosive->cj_compression;

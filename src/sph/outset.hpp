@@ -29,7 +29,8 @@ struct Outset {
 ///  - in a gas rho u^2, the ram pressure;
 ///  - in other matter a tenth of rho u max(u, c), the pressure behind a shock or an elastic wave of velocity u: what is
 ///    left of it some way from where it begins.
-/// u is the largest speed relative to the centre of mass of everything.
+/// u is the largest speed relative to the centre of mass of everything; across walls and planes of symmetry, which stand
+/// still, relative to them.
 template <int Dim>
 Outset outset(const Particles<Dim>& particles, const Scene& scene, const std::vector<Material>& materials);
 

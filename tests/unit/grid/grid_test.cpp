@@ -322,6 +322,7 @@ max = ["0.5 m", "0.02 m"]
   replace("density = \"1 kg/m^3\"\npressure = \"1 Pa\"\n", "");
   const auto grid = make_grid<2>(scene);
   run_to_end(*grid, grid->scene());
+  EXPECT_NEAR(grid->outset().pressure, 998 * 50 * 1478, 0.01 * grid->outset().pressure);  // the water hammer
   // Rankine and Hugoniot: dp = rho0 U u, with the compression u/U = 1 - rho0/rho.
   const CellState<2> middle = grid->state(grid->box().index({grid->box().cells[0] / 2 + 6, 2}));
   const double rho0 = reference_density(grid->material().eos), compression = 1 - rho0 / middle.density;

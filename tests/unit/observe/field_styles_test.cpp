@@ -65,6 +65,21 @@ TEST(FieldStyles, WithoutFlawsTheYieldStressCountsAndWithoutThatTheModulus) {
   EXPECT_EQ(field_styles(scene, extremes(scene, {m}, Outset{})).at("pressure").range->max, 1e9);
 }
 
+TEST(FieldStyles, WhatAnExplosiveDrivesIsSeen) {
+  Material tnt;  // 21 GPa at the front
+  tnt.eos = Jwl{.rho0 = 1630,
+                 .A = 371.2e9,
+                 .B = 3.231e9,
+                 .R1 = 4.15,
+                 .R2 = 0.95,
+                 .omega = 0.3,
+                 .E0 = 7e9,
+                 .detonation_speed = 6930};
+  Outset outset = impact();
+  outset.pressure = 21e9;
+  EXPECT_NEAR(field_styles(Scene{}, extremes(Scene{}, {tnt}, outset)).at("pressure").linear_to, 21e6, 2e6);
+}
+
 TEST(FieldStyles, SolidsAreNeverThinnerThanHalf) {
   const Scene scene;
   EXPECT_EQ(field_styles(scene, extremes(scene, {rock()}, impact())).at("density").range->min, 1500);

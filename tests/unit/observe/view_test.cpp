@@ -53,6 +53,38 @@ TEST(View, OfABoxIsAsWideAsItsLongestSideInTheDimensionsThereAre) {
   EXPECT_DOUBLE_EQ(choose_view(scene).width, 0.32);
 }
 
+TEST(View, GrowsForABodyThatBeginsAtItsEdge) {
+  Scene scene = two_balls();
+  scene.bodies[0] = ball(0.01, {1.1, 2, 3}, {5, 0, 0});  // beyond the edge at 1.08
+  EXPECT_NEAR(choose_view(scene).width, 0.22, 1e-12);
+  EXPECT_EQ(choose_view(scene).center, (Triple{1, 2, 3}));
+  scene.bodies[0].center = {1.2, 2, 3};  // far off
+  EXPECT_NEAR(choose_view(scene).width, 0.16, 1e-12);
+  scene.bodies[0].center = {1, 9, 3};  // along the line of sight
+  EXPECT_NEAR(choose_view(scene).width, 0.16, 1e-12);
+}
+
+TEST(View, LeavesOutWhatTheBoundaryCutsOff) {
+  Scene scene;
+  scene.dimension = 2;
+  scene.bodies = {ball(0.1, {0, 0, 0}, {0, 0, 0})};
+  scene.boundary.min = {0, -0.02, 0};
+  scene.boundary.lower = {BoundaryKind::symmetry, BoundaryKind::reflecting, BoundaryKind::open};
+  const View cut = choose_view(scene);
+  EXPECT_DOUBLE_EQ(cut.center[0], 0.05);
+  EXPECT_DOUBLE_EQ(cut.center[1], 0.04);
+  EXPECT_DOUBLE_EQ(cut.width, 1.6 * 0.12);
+  // Slices of space are laid through the middle of the whole body.
+  scene.dimension = 3;
+  EXPECT_EQ(choose_view(scene).center[1], 0);
+  scene.dimension = 2;
+  // Across a periodic face it takes all of the box.
+  scene.boundary.lower = scene.boundary.upper = {BoundaryKind::periodic, BoundaryKind::open, BoundaryKind::open};
+  scene.boundary.max = {0.3, 0, 0};
+  EXPECT_DOUBLE_EQ(choose_view(scene).center[0], 0.15);
+  EXPECT_DOUBLE_EQ(choose_view(scene).width, 1.6 * 0.3);
+}
+
 TEST(View, TakesFromTheSceneWhatItGives) {
   Scene scene = two_balls();
   scene.insitu.view_center[2] = 0;

@@ -81,6 +81,10 @@ TEST(DisplayUnit, PicksAPrefixThatReadsWell) {
   EXPECT_EQ(display_unit(0, "Pa").si, 1);
   EXPECT_EQ(time_text(1.234e-5, 6e-5), "12.3 µs");
   EXPECT_EQ(time_text(0, 6e-5), "0.0 µs");
+  EXPECT_EQ(short_number(11000), "11000");
+  EXPECT_EQ(short_number(-12500), "-12500");
+  EXPECT_EQ(short_number(0.25), "0.25");
+  EXPECT_EQ(short_number(3e7), "3e+07");
 }
 
 TEST(DisplayUnit, TicksAreRoundAndInside) {

@@ -68,6 +68,17 @@ TEST(Outset, WhatMovesAsAWholeIsNotExpectedToBePressed) {
   EXPECT_LT(sim->outset.pressure, 1e3);
 }
 
+TEST(Outset, WhatMovesTowardsAWallIsExpectedToBePressed) {
+  std::vector<std::string> overrides{"bodies.ring.profile.velocity=[\"200\", \"0\"]", "boundary.x_max=reflecting",
+                                     "boundary.max=[\"11 mm\", \"0 mm\"]"};
+  EXPECT_NEAR(start<2>(ring, overrides)->outset.pressure, start<2>(ring)->outset.pressure, 0.5e9);
+  overrides[0] = "bodies.ring.profile.velocity=[\"0\", \"200\"]";  // it only moves along
+  EXPECT_LT(start<2>(ring, overrides)->outset.pressure, 1e3);
+  // Of a liquid that is all at one speed nothing is known, and what a sum has rounded is nothing.
+  overrides = {"bodies.ring.profile.velocity=[\"200/3\", \"100/7\"]", "bodies.ring.material=water"};
+  EXPECT_EQ(start<2>(ring, overrides)->outset.pressure, 0);
+}
+
 TEST(Outset, PiecesOfMatterWithoutDamageAreRemarkedOn) {
   const auto text = [](const std::vector<std::string>& overrides) {
     const auto remarks = start<2>(ring, overrides)->remarks_at_start();
