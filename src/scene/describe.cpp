@@ -47,7 +47,7 @@ void describe(Describer& d, Body& b) {
   d.number("jitter", b.jitter, "1", between(0, 1), "random displacement along each axis, up to this many spacings");
   d.origin(b.origin);
   d.section("profile",
-            "formulas of x, y, z, r (from its centre) and dx (spacing) in SI, in place of its uniform values");
+            "formulas of x, y, z, r (from its centre), dx (spacing) and pi in SI, in place of its uniform values");
   describe(d, b.profile);
 }
 

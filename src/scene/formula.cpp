@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "base/errors.hpp"
 
@@ -35,10 +36,11 @@ Formula::Formula(const std::string& text)
     parser_->DefineVar("r", &variables_->r);
     parser_->DefineVar("dx", &variables_->dx);
     parser_->DefineFun("hypot", hypotenuse);
+    parser_->DefineConst("pi", std::numbers::pi);
     parser_->SetExpr(text);
     parser_->Eval();  // compiles; the value at the origin does not matter
   } catch (const mu::ParserError& error) {
-    throw InputError(fmt::format("expected a formula of x, y, z, r and dx, got \"{}\": {}", text, error.GetMsg()));
+    throw InputError(fmt::format("expected a formula of x, y, z, r, dx and pi, got \"{}\": {}", text, error.GetMsg()));
   }
   if (parser_->GetNumResults() != 1)
     throw InputError(fmt::format("expected one formula, got {} in \"{}\"", parser_->GetNumResults(), text));

@@ -15,6 +15,7 @@ TEST(Formula, KnowsThePlaceTheRadiusAndTheSpacing) {
   EXPECT_DOUBLE_EQ(Formula("r/dx")(point), 20);
   EXPECT_DOUBLE_EQ(Formula("hypot(3*x, 2*y)")(point), 5);
   EXPECT_DOUBLE_EQ(Formula("r < 0.2 ? 5*r : (r < 6 ? sin(_pi*x/2) : 0)")(point), 1);
+  EXPECT_DOUBLE_EQ(Formula("sin(pi*x/2)")(point), 1);
   EXPECT_DOUBLE_EQ(Formula("2.5e-3")(point), 2.5e-3);
 }
 

@@ -35,7 +35,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{"hole_too_wide", "radius = \"3 cm\"", "radius = \"3 cm\"\ninner_radius = \"3 cm\"",
                  "s.toml:11: bodies[0].inner_radius: expected less than the radius 30 mm, got 30 mm"},
         BadScene{"formula", "", "[bodies.profile]\nspecific_energy = \"2*q\"\n",
-                 "s.toml:18: bodies[1].profile.specific_energy: expected a formula of x, y, z, r and dx, got \"2*q\": "
+                 "s.toml:18: bodies[1].profile.specific_energy: expected a formula of x, y, z, r, dx and pi, got \"2*q\": "
                  "Unexpected token \"q\" found at position 2."},
         BadScene{"too_few_formulas", "", "[bodies.profile]\nvelocity = [\"x\", \"y\"]\n",
                  "s.toml:18: bodies[1].profile.velocity: expected 3 formulas in 3D, got 2"},
