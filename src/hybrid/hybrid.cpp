@@ -166,7 +166,8 @@ void Hybrid<Dim>::lay_particles(const std::vector<Material>& materials) {
   const auto in_a_solid = [&](std::size_t cell, const Vec<Dim>& x) {
     bool found = false;
     for_cells_near<Dim>(grid_.box(), grid_.box().cell(cell), 1, [&](std::size_t near, int) {
-      for (const Vec<Dim>& y : solid[near]) found = found || (y - x).norm() < room_for_particles * scene_.spacing;
+      for (const Vec<Dim>& y : solid[near])
+        found = found || shortest_way(grid_.box(), x, y).norm() < room_for_particles * scene_.spacing;
     });
     return found;
   };

@@ -37,13 +37,7 @@ void Hybrid<Dim>::fill_holes(const std::vector<Part>& before) {
   const auto is_free = [&](std::size_t cell, const Vec<Dim>& x) {
     bool found = false;
     by_cell_.for_near(box, cell, 1, [&](std::size_t i) {
-      double squares = 0;
-      for (std::size_t a = 0; a < Dim; ++a) {
-        double d = p.column(Field::position, static_cast<int>(a))[i] - x[static_cast<int>(a)];
-        if (const double length = box.cells[a] * box.spacing; box.lower[a] == BoundaryKind::periodic)
-          d -= length * std::round(d / length);
-        squares += d * d;
-      }
+      const double squares = shortest_way<Dim>(box, x, p.vector(Field::position, i)).squaredNorm();
       const double apart = room_for_particles * 0.5 * (size[i] + scene_.spacing);
       found = found || squares < apart * apart;
     });

@@ -1,5 +1,6 @@
 #pragma once
 /// Particles by the cells that they are in.
+#include <cmath>
 #include <cstdint>
 #include <numeric>
 #include <vector>
@@ -9,6 +10,20 @@
 #include "particles/particles.hpp"
 
 namespace ejecta {
+
+/// The way from one place to another [m], across periodic faces where that is shorter: what cells near each other hold
+/// may stand at both ends of the box.
+template <int Dim>
+Vec<Dim> shortest_way(const Box<Dim>& box, const Vec<Dim>& from, const Vec<Dim>& to) {
+  Vec<Dim> d = to - from;
+  for (int a = 0; a < Dim; ++a) {
+    const auto k = static_cast<std::size_t>(a);
+    if (box.lower[k] != BoundaryKind::periodic) continue;
+    const double length = box.cells[k] * box.spacing;
+    d[a] -= length * std::round(d[a] / length);
+  }
+  return d;
+}
 
 template <int Dim>
 class ParticlesByCell {

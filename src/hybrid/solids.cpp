@@ -169,12 +169,11 @@ void Solids<Dim>::mirror(Sph<Dim>& gas, const ParticlesByCell<Dim>& by_cell, con
         // And its own images behind mirrors.
         const Vec<Dim> y = g.vector(Field::position, j);
         for (unsigned mirrored = 0; mirrored < 1u << Dim; ++mirrored) {
-          Vec<Dim> d = y - x, v = g.vector(Field::velocity, j);
+          Vec<Dim> d = shortest_way(box, x, y), v = g.vector(Field::velocity, j);
           bool there = true;
           for (int a = 0; a < Dim; ++a) {
             const auto k = static_cast<std::size_t>(a);
             const double length = box.cells[k] * box.spacing;
-            if (box.lower[k] == BoundaryKind::periodic) d[a] -= length * std::round(d[a] / length);
             if (!(mirrored >> k & 1u)) continue;
             const double low = box.corner[a], high = low + length;
             const bool at_low = mirrors(box.lower[k]) && x[a] - low < reach,
@@ -235,7 +234,7 @@ void Solids<Dim>::hold_out(Sph<Dim>& gas, const ParticlesByCell<Dim>& by_cell, c
     by_cell.for_near(box, cell_of(box, x), radius, [&](std::size_t j) {
       if (!is_image(g, j)) return;
       const double h = width * spacing_[static_cast<std::size_t>(g.label(Label::id)[j])];
-      const Vec<Dim> d = (g.vector(Field::position, j) - x) / h;
+      const Vec<Dim> d = shortest_way<Dim>(box, x, g.vector(Field::position, j)) / h;
       const double q = d.norm();
       if (q < Shape::support) see(j, d, q, h);
     });
