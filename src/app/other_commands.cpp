@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <vector>
 
 #include "app/control.hpp"
@@ -10,6 +11,7 @@
 #include "app/options.hpp"
 #include "app/resources.hpp"
 #include "base/data_folder.hpp"
+#include "base/errors.hpp"
 #include "base/parallel.hpp"
 #include "commit.hpp"
 #include "material/material_reader.hpp"
@@ -104,6 +106,8 @@ int check_command(const std::string& scene_file, const std::vector<std::string>&
 }
 
 int movie_command(const std::string& folder, int frames_per_second) {
+  if (!std::filesystem::exists(std::filesystem::path(folder) / "images/data.csv"))
+    throw InputError(fmt::format("{}: expected a run folder with images, found none", folder));
   const MovieReport report = make_movies(folder, frames_per_second);
   for (const Movie& movie : report.movies) fmt::print("{} ({} frames)\n", movie.file.string(), movie.frames);
   for (const std::string& problem : report.problems) spdlog::error("{}", problem);

@@ -111,6 +111,11 @@ class Commands(RunTest):
                 self.assertEqual(result.returncode, 0, result.stderr)
                 self.assertEqual(tomllib.loads(scene.read_text())["scene"]["name"], scene.stem)
 
+    def test_a_folder_without_images_has_no_movie(self):
+        result = ejecta("movie", self.folder)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn(f"{self.folder}: expected a run folder with images, found none", result.stderr)
+
     def test_movie_and_replay_of_a_run(self):
         out = self.run_scene(IMPACT_2D, "run", {"resolution.spacing": "4mm", "time.end": "5us", "insitu.frames": 3,
                                                 "insitu.max_share": 1})
