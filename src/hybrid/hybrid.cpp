@@ -30,6 +30,7 @@ Scene scene_of_grid(Scene scene) {
 
 Scene scene_of_particles(Scene scene) {
   scene.numerics.scheme = SchemeKind::gsph;
+  scene.numerics.fill_space = Switch::off;  // sums are cut off at the rim of the zone, where nothing would be filled
   return scene;
 }
 

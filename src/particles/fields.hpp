@@ -15,6 +15,8 @@ enum class Field {
   bond,
   stretch,
   density,
+  filling,
+  volume_excess,
   compression_rate,
   specific_energy,
   specific_energy_rate,

@@ -224,12 +224,16 @@ void check_godunov(const Numerics& n, const Report& report) {
   refuse_if(n.kernel == Kernel::gaussian && !n.godunov() && n.scheme != SchemeKind::fvm, "numerics.kernel",
             "scheme gsph, agsph or hybrid with gaussian");
   refuse_if(is_set(n.pilot_width) && n.scheme != SchemeKind::gsph, "numerics.pilot_width", "scheme gsph with it");
+  refuse_if(n.fill_space == Switch::on && n.scheme != SchemeKind::gsph && n.scheme != SchemeKind::agsph,
+            "numerics.fill_space", "scheme gsph or agsph with it");
   refuse_if(n.linear_conduction > 0 && !n.godunov(), "numerics.linear_conduction",
             "scheme gsph, agsph or hybrid with it");
   refuse_if(n.quadratic_conduction > 0 && !n.godunov(), "numerics.quadratic_conduction",
             "scheme gsph, agsph or hybrid with it");
   if (is_set(n.pilot_width) && n.density != DensityMethod::summation)
     report("numerics.pilot_width", fmt::format("expected density summation with it, got {}", name_of(n.density)));
+  if (n.fill_space == Switch::on && n.density != DensityMethod::summation)
+    report("numerics.fill_space", fmt::format("expected density summation with it, got {}", name_of(n.density)));
   if (!n.godunov()) return;
   if (n.precision == Precision::mixed)
     report("numerics.precision", fmt::format("expected double with scheme {}, got mixed", scheme));

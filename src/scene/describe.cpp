@@ -114,6 +114,9 @@ void describe(Describer& d, Numerics& n) {
            "gsph: of the slopes that bring states to the middle of a pair; none: first order, as they are");
   d.choice("faces", n.faces,
            "gsph: what fluxes go through, gradients that are exact for linear fields or those of the kernel");
+  d.choice("fill_space", n.fill_space,
+           "gsph: volumes by the number of neighbours are moved until they fill space, which keeps contacts between "
+           "particles of different sizes sharp; auto: with summed densities, but for hybrid or a pilot_width");
   d.number("pilot_width", n.pilot_width, "1", between(1, 4),
            "gsph: smoothing lengths follow a density that is summed over a kernel so many times as wide (2.5 of Puri & "
            "Ramachandran 2014); else neighbours are counted");

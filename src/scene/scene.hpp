@@ -95,6 +95,7 @@ struct Numerics {
   PairRiemann riemann = PairRiemann::approximate;  ///< GSPH: between two particles
   PairLimiter limiter = PairLimiter::monotonised_central;  ///< GSPH: of the states brought to the middle of a pair
   PairFaces faces = PairFaces::renormalised;               ///< GSPH: what the flux of a pair goes through
+  Switch fill_space = Switch::automatic;                   ///< GSPH: summed volumes are moved until they fill space
   double pilot_width = unset;  ///< GSPH: of the pilot density that h follows [h]; else neighbours are counted
   double linear_conduction = 0, quadratic_conduction = 0;  ///< GSPH: g1, g2 of the artificial conduction
   double courant = 0.4;

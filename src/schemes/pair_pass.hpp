@@ -55,7 +55,8 @@ class PairPass {
   /// Density by summation: rho_i = sum_j m_j W(r_ij, h_i), and the zeroth moment.
   /// reads position, smoothing_length, mass; writes density, zeroth_moment.
   /// With Godunov fluxes neighbours count by number, rho_i = m_i sum_j W(r_ij, h_i)/(that of the lattice): a jump of
-  /// the density between particles of one volume stays one.
+  /// the density between particles of one volume stays one. Where there is a filling it is sum_j V_j W(r_ij, h_j)/(that
+  /// of the lattice), with the volumes m_j/rho_j that the densities had before.
   virtual void density(Particles<Dim>& particles, const PairLists<Dim>& lists) = 0;
 
   /// Rates by pair forces. V = m/rho; g_ij is the kernel gradient grad_i W_ij, averaged over both particles' h;

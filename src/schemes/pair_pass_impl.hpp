@@ -236,8 +236,9 @@ void PairPassOf<T, Dim, Kind, K, Flux>::cluster_density(const RateColumns<Dim>& 
                                                         Candidates candidates) const {
   const Members members(c, records_.data());
   const Support support{members.loader()};
-  simd::WideSum<T> density;
+  simd::WideSum<T> density, filling;
   V sum{};
+  const bool fills = Flux::whole && columns.filling.count != 0;
   for (const std::uint32_t index : candidates) {
     Partner p;
     p.record = records_.data() + static_cast<std::size_t>(index) * R::size;
@@ -245,13 +246,19 @@ void PairPassOf<T, Dim, Kind, K, Flux>::cluster_density(const RateColumns<Dim>& 
     members.template meet<false>(p, between, distance2);
     support.value(between, distance2, w, moment);
     density.add(Flux::whole ? T(1) : p.record[R::mass], w);
+    if constexpr (Flux::whole)
+      if (fills)
+        filling.add(p.record[R::volume] * p.record[R::expansion], support.partner_value(between, distance2, p.record));
     sum += moment;
   }
   for (std::size_t i = c.begin; i < c.end; ++i) {
     const int k = static_cast<int>(i - c.begin);
     columns.density(0, i) = support.norm(k) * density.lane(k);
-    if constexpr (Flux::whole)
-      columns.density(0, i) *= records_[i * R::size + R::mass] / settings_.godunov->lattice_density;
+    if constexpr (Flux::whole) {
+      const double on_lattice = settings_.godunov->lattice_density;
+      columns.density(0, i) *= records_[i * R::size + R::mass] / on_lattice;
+      if (fills) columns.filling(0, i) = K::template norm<Dim> * filling.lane(k) / on_lattice;
+    }
     columns.zeroth_moment(0, i) = static_cast<double>(sum[k]);
   }
 }

@@ -21,11 +21,12 @@ struct RateColumns {
         face_correction(p, Field::face_correction),
         stretch(p, Field::stretch),
         compression_rate(p, Field::compression_rate),
-        density(p, Field::density) {}
+        density(p, Field::density),
+        filling(p, Field::filling) {}
 
   Columns<Dim, const double> mass, velocity;
   Columns<Dim, double> acceleration, specific_energy_rate, zeroth_moment, largest_mu, velocity_gradient, uncut_gradient,
-      density_gradient, pressure_gradient, face_correction, stretch, compression_rate, density;
+      density_gradient, pressure_gradient, face_correction, stretch, compression_rate, density, filling;
 };
 
 }  // namespace ejecta

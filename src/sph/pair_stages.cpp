@@ -69,6 +69,33 @@ void hold_density(Sph<Dim>& sph, const Material& material, double share, std::si
     density = std::min(density, std::max(most, own));
 }
 
+/// A volume by number smears a contact between particles of different sizes, as each takes all its neighbours for its
+/// own kind. What the volumes fill together, each spread with its own kernel, tells, and moves them [c/h]. Not all the
+/// way: only as far as volumes follow the number do equal pressures keep particles in order. With a restoring rate of
+/// 0.2 the contact of Sod's tube clumps from 400 particles on, with 0.4 from 800 on; 0.5 is no worse there than none.
+constexpr double filling_rate = 1, restoring_rate = 0.5;
+/// Pressures are alike at a contact. Where they are not, as in a shock, densities would overshoot by a tenth.
+constexpr double contact_slope = 0.25;  // h |grad P|/P
+/// Contacts need 0.1; a free surface, where less is filled for good, would go on.
+constexpr double most_excess = 0.2, least_filled = 0.5;
+
+template <int Dim>
+void fill_space(Particles<Dim>& p, double dt) {
+  const bool slopes = p.has(Field::pressure_gradient);
+  parallel_for(0, p.size(), [&](std::size_t i) {
+    const double h = p.column(Field::smoothing_length)[i], pressure = p.column(Field::pressure)[i];
+    double& excess = p.column(Field::volume_excess)[i];
+    const double filled = std::log(std::clamp(p.column(Field::filling)[i], least_filled, 1 / least_filled));
+    const double steep = slopes ? h * p.vector(Field::pressure_gradient, i).norm() / contact_slope : 0,
+                 contact =
+                     pressure * pressure / (pressure * pressure + steep * steep + std::numeric_limits<double>::min());
+    const double crossings = std::min(1.0, dt * p.column(Field::sound_speed)[i] / h);
+    excess -= crossings * (filling_rate * contact * filled + restoring_rate * excess);
+    excess = std::clamp(excess, -most_excess, most_excess);
+    p.column(Field::density)[i] *= std::exp(-excess);
+  });
+}
+
 }  // namespace
 
 template <int Dim>
@@ -86,6 +113,7 @@ void summation_density(Sph<Dim>& sph) {
     renew_lists(sph);  // h may have outgrown the margin of the lists, and a missed pair has a force on one side only
   }
   if (pilot || sph.clock.step == 0) sph.pass->density(sph.particles, sph.lists);
+  if (sph.particles.has(Field::volume_excess)) fill_space(sph.particles, sph.clock.step == 0 ? 0 : sph.clock.dt);
 }
 
 template <int Dim>

@@ -54,6 +54,9 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
                                                              any([](const Material& m) { return m.stretches(); }));
   const bool tensor = scene.numerics.tensors();
   const bool godunov = scene.numerics.godunov();
+  const bool fills = godunov && !continuity &&
+                     (scene.numerics.fill_space == Switch::on ||
+                      (scene.numerics.fill_space == Switch::automatic && !is_set(scene.numerics.pilot_width)));
   const bool conducts = scene.numerics.conducts();
   // First order with uncorrected faces needs no slopes.
   const bool slopes = godunov && (tensor || continuity || conducts || scene.numerics.limiter != PairLimiter::none ||
@@ -76,8 +79,11 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
     add_work("shapes", Fields{position, mass, smoothing_length, smoothing_metric}.with(bonded, {bond}),
              {smoothing_length, smoothing_metric, zeroth_moment}, vote_shapes<Dim>());
   if (!continuity)
-    add("density", {position, smoothing_length, mass}, {density, zeroth_moment, smoothing_length},
-        summation_density<Dim>);
+    add("density",
+        Fields{position, smoothing_length, mass}
+            .with(fills, {density, pressure, sound_speed, volume_excess})
+            .with(fills && slopes, {pressure_gradient}),
+        Fields{density, zeroth_moment, smoothing_length}.with(fills, {filling, volume_excess}), summation_density<Dim>);
   if (burns) add("burn", {density, lighting_time, burnt}, {burnt}, burn<Dim>);
   add("equation of state", Fields{density, specific_energy}.with(burns, {burnt}).with(porous, {distension}),
       Fields{pressure, sound_speed}
