@@ -58,9 +58,9 @@ V velocities(const V* u, V volume, V* w) {
 struct IdealLanes {
   static constexpr bool carries_energy = false, always_positive = true;
   static constexpr int extras = 1;
-  double gamma;
+  double gamma, per_gamma_1;  ///< 1/(gamma - 1)
 
-  explicit IdealLanes(const IdealGas& gas) : gamma(gas.gamma) {}
+  explicit IdealLanes(const IdealGas& gas) : gamma(gas.gamma), per_gamma_1(1 / (gas.gamma - 1)) {}
 
   template <int Dim>
   void primitives(const V* u, V* w, V* x) const {
@@ -75,7 +75,7 @@ struct IdealLanes {
   }
   template <int Dim>
   V energy(const V* w) const {
-    return w[Dim + 1] * (1 / (gamma - 1)) + w[0] * half_speed2<Dim>(w);
+    return w[Dim + 1] * per_gamma_1 + w[0] * half_speed2<Dim>(w);
   }
   template <int Dim>
   void changed(V* w, const V*, V volume, const V* d) const {
