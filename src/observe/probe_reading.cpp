@@ -137,8 +137,12 @@ struct Fit {
     const Eigen::LDLT<Moments> solver(scaled);
     constexpr double least_pivot = 1e-2;
     const bool cloud = solver.vectorD().minCoeff() > least_pivot * scaled(0, 0);
-    const Eigen::MatrixXd fit = cloud ? Eigen::MatrixXd(scale.asDiagonal() * solver.solve(scale.asDiagonal() * sums))
-                                      : Eigen::MatrixXd(sums / fill);
+    Eigen::MatrixXd fit = sums / fill;
+    if (cloud) {
+      sums.bottomRows(Dim) /= unit;
+      fit = solver.solve(sums);
+      fit.bottomRows(Dim) /= unit;
+    }
     for (std::size_t k = 0; k < values.size(); ++k) values[k] = fit(0, static_cast<Eigen::Index>(k));
     if (cloud) gradient = fit.template block<Dim, Dim>(1, 2).transpose();  // the velocity follows density and pressure
   }

@@ -55,7 +55,10 @@ double reach(const RadialFlow& flow) {
 }
 
 RadialState state_of(const RadialFlow& flow, const Scene& scene, double spacing, double charge_mass) {
-  RadialState state{.center = scene.charge->center, .time = flow.time(), .spacing = spacing};
+  RadialState state;
+  state.center = scene.charge->center;
+  state.time = flow.time();
+  state.spacing = spacing;
   const auto copy = [](std::span<const double> column) { return std::vector<double>(column.begin(), column.end()); };
   state.density = copy(flow.density());
   state.velocity = copy(flow.velocity());

@@ -54,13 +54,15 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
                                                              any([](const Material& m) { return m.stretches(); }));
   const bool tensor = scene.numerics.tensors();
   const bool godunov = scene.numerics.godunov();
-  const bool fills = godunov && !continuity &&
-                     (scene.numerics.fill_space == Switch::on ||
-                      (scene.numerics.fill_space == Switch::automatic && !is_set(scene.numerics.pilot_width)));
   const bool conducts = scene.numerics.conducts();
+  const Switch filling_asked = scene.numerics.fill_space;
   // First order with uncorrected faces needs no slopes.
-  const bool slopes = godunov && (tensor || continuity || conducts || scene.numerics.limiter != PairLimiter::none ||
-                                  scene.numerics.faces == PairFaces::renormalised);
+  const bool slopes =
+      godunov && (tensor || continuity || conducts || filling_asked == Switch::on ||
+                  scene.numerics.limiter != PairLimiter::none || scene.numerics.faces == PairFaces::renormalised);
+  const bool fills =
+      slopes && !continuity &&
+      (filling_asked == Switch::on || (filling_asked == Switch::automatic && !is_set(scene.numerics.pilot_width)));
   const bool gradient = solid || continuity || balsara || switched || tensor || corrects_gradients(scene, materials);
 
   std::vector<Stage<Dim>> stages;
@@ -80,9 +82,8 @@ std::vector<Stage<Dim>> choose_stages(const Scene& scene, const std::vector<Mate
              {smoothing_length, smoothing_metric, zeroth_moment}, vote_shapes<Dim>());
   if (!continuity)
     add("density",
-        Fields{position, smoothing_length, mass}
-            .with(fills, {density, pressure, sound_speed, volume_excess})
-            .with(fills && slopes, {pressure_gradient}),
+        Fields{position, smoothing_length, mass}.with(
+            fills, {density, pressure, sound_speed, density_gradient, pressure_gradient, volume_excess}),
         Fields{density, zeroth_moment, smoothing_length}.with(fills, {filling, volume_excess}), summation_density<Dim>);
   if (burns) add("burn", {density, lighting_time, burnt}, {burnt}, burn<Dim>);
   add("equation of state", Fields{density, specific_energy}.with(burns, {burnt}).with(porous, {distension}),

@@ -118,9 +118,10 @@ CASES = [
     Case("gas, shock switch", gas, {"numerics.shock_switch": "true"}, adds_stages=("viscosity switches",),
          adds_columns=("shock_switch", "velocity_gradient"), other_bytes=STRAINED),
     # A Riemann problem needs 3 numbers of a particle, one of them for walls, 21 of its slopes and 2 for the conduction of
-    # heat; the viscosity's one falls away, and gases touch nothing.
+    # heat; the viscosity's one falls away, and gases touch nothing. Volumes are made to fill space.
     Case("gas, Riemann problems", gas, {"numerics.scheme": "gsph"}, adds_stages=("slopes",),
-         adds_columns=("density_gradient", "pressure_gradient", "velocity_gradient", "face_correction"),
+         adds_columns=("density_gradient", "pressure_gradient", "velocity_gradient", "face_correction", "filling",
+                       "volume_excess"),
          other_bytes=25 * RECORDED * WITH_IMAGES - TOUCHING),
     gas_continuity,
     Case("gas, continuity, constant h", gas_continuity, {"numerics.smoothing_growth": 1},

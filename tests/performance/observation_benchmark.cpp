@@ -1,10 +1,10 @@
 /// What is made of the particles during a run: fragment_search/<dimension> and slice_image/<dimension>.
+#include "analysis/fragments.hpp"
 #include "performance/bodies.hpp"
 #include "performance/flops.hpp"
 #include "performance/measure.hpp"
 #include "render/sampling.hpp"
 #include "schemes/kernels.hpp"
-#include "analysis/fragments.hpp"
 
 namespace ejecta {
 namespace {
@@ -16,9 +16,16 @@ template <int Dim>
 void fragment_search(benchmark::State& state) {
   const auto& sim = body<Dim>("pumice", particles);
   const auto& p = sim.particles;
-  FragmentInput input{vectors(p, Field::position), vectors(p, Field::velocity), p.column(Field::mass),
-                      p.column(Field::density),    p.column(Field::damage),     p.column(Field::distension),
-                      p.label(Label::id),          p.label(Label::body),        p.label(Label::material)};
+  FragmentInput input{};
+  input.position = vectors(p, Field::position);
+  input.velocity = vectors(p, Field::velocity);
+  input.mass = p.column(Field::mass);
+  input.density = p.column(Field::density);
+  input.damage = p.column(Field::damage);
+  input.distension = p.column(Field::distension);
+  input.id = p.label(Label::id);
+  input.body = p.label(Label::body);
+  input.material = p.label(Label::material);
   input.piece_of_body.assign(sim.scene.bodies.size(), 0);
   Measurement measured(state);
   measured.run([&] { benchmark::DoNotOptimize(find_groups(input, sim.scene.fragments)); });
@@ -31,8 +38,11 @@ template <int Dim>
 void slice_image(benchmark::State& state) {
   const auto& sim = body<Dim>("pumice", particles);
   const auto& p = sim.particles;
-  const ParticleView view{vectors(p, Field::position), p.column(Field::mass), p.column(Field::density),
-                          p.column(Field::smoothing_length)};
+  const ParticleView view{vectors(p, Field::position),
+                          p.column(Field::mass),
+                          p.column(Field::density),
+                          p.column(Field::smoothing_length),
+                          {}};
   const std::vector<FieldView> fields{{"pressure", "Pa", {p.column(Field::pressure)}},
                                       {"distension", "1", {p.column(Field::distension)}}};
   const KernelShape kernel{WendlandC2::support, [](double q) { return WendlandC2::norm<Dim> * WendlandC2::value(q); }};

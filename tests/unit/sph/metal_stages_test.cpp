@@ -9,8 +9,7 @@
 namespace ejecta {
 namespace {
 
-std::unique_ptr<Sph<3>> one_particle(const std::string& material,
-                                            const std::vector<std::string>& settings = {}) {
+std::unique_ptr<Sph<3>> one_particle(const std::string& material, const std::vector<std::string>& settings = {}) {
   return start<3>(R"([scene]
 name = "probe"
 [resolution]

@@ -12,7 +12,7 @@ std::size_t target_of(std::vector<std::pair<std::string, BodyAtOutset>> bodies, 
   Scene scene;
   std::vector<BodyAtOutset> outset;
   for (const auto& [name, body] : bodies) {
-    scene.bodies.push_back({.name = name});
+    scene.bodies.emplace_back().name = name;
     outset.push_back(body);
   }
   scene.fragments.target = named;

@@ -1,11 +1,10 @@
-#include "sph/sph.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstring>
 
 #include "base/errors.hpp"
+#include "sph/sph.hpp"
 #include "sph/stages.hpp"
 #include "unit/base/thread_counts.hpp"
 #include "unit/sph/small_scenes.hpp"

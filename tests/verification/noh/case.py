@@ -182,6 +182,9 @@ class NohPlanarRiemann(NohPlanar):
         Bound("pressure", "L1", {50: 0.0196, 100: 0.01}, 0.85),
         Bound("energy", "L1", {50: 0.0048, 100: 0.00245}, 0.85),
         Bound("density", "Linf", 1.17, why=NohPlanar.shock),
+        Bound("velocity", "Linf", 0.152, why=NohPlanar.shock),
+        Bound("pressure", "Linf", 0.53, why=NohPlanar.shock),
+        Bound("energy", "Linf", 0.0755, why=NohPlanar.shock),
         Bound("plateau density", "relative", {50: 0.0036, 100: 0.0009}, why="far below the other errors"),
         Bound("negative energy", "relative", 1.2e-10, why="work of p* v* alone may cool cold gas ahead of the shock"),
     )
