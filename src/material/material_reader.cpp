@@ -31,16 +31,44 @@ Document find_material(const std::string& name, const std::vector<std::string>& 
   return empty;
 }
 
-void merge(Document& document, const Document& overrides) {
+/// A section of a material file that the scene has replaced, and why.
+struct Replaced {
+  std::string section;
+  Origin by;         ///< the model that the scene gives
+  std::string text;  ///< what was in its place
+};
+
+/// Puts the values of the scene in place of those of the file. Another model takes the place of the whole section: its
+/// constants would be those of something else.
+std::vector<Replaced> merge(Document& document, const Document& overrides) {
+  std::vector<Replaced> replaced;
   for (const std::string section : {"eos", "strength", "damage", "porosity"}) {
     const auto item = overrides.items.find(section + ".model");
     const auto own = document.items.find(section + ".model");
     if (item == overrides.items.end() || own == document.items.end()) continue;
-    if (to_text(item->second.literal) != to_text(own->second.literal))
-      std::erase_if(document.items, [&](const auto& entry) { return entry.first.starts_with(section + "."); });
+    if (to_text(item->second.literal) == to_text(own->second.literal)) continue;
+    replaced.push_back(
+        {section, item->second.origin,
+         fmt::format("{} is another model than {} of {}, and replaces all of its section: no constant of "
+                     "that stays, so that all must be given",
+                     to_text(item->second.literal), to_text(own->second.literal), own->second.origin.text)});
+    std::erase_if(document.items, [&](const auto& entry) { return entry.first.starts_with(section + "."); });
   }
   for (const auto& [path, item] : overrides.items) document.items.insert_or_assign(path, item);
   for (const auto& [path, origin] : overrides.tables) document.tables.insert_or_assign(path, origin);
+  return replaced;
+}
+
+/// Constants that are missing where a section has been replaced: says why.
+void explain(const std::vector<Replaced>& replaced, const Describer& description, const Document& document,
+             Problems& problems) {
+  for (const Replaced& r : replaced) {
+    const auto missing = [&](const Setting& setting) {
+      return setting.path().starts_with(r.section + ".") && !document.items.contains(setting.path()) &&
+             problems.has(setting.path());
+    };
+    if (std::ranges::any_of(description.settings(), missing)) problems.add(r.by, r.section + ".model", r.text);
+  }
 }
 
 /// Moves [eos] to [materials.<name>.eos].
@@ -99,13 +127,14 @@ std::size_t Materials::index(std::string_view name) const {
 Material read_material(const std::string& name, const std::vector<std::string>& folders, const Document& overrides,
                        std::string* toml, const std::string& asked_by) {
   Document document = find_material(name, folders, overrides, asked_by);
-  merge(document, overrides);
+  const std::vector<Replaced> replaced = merge(document, overrides);
   Problems problems;
   MaterialSettings settings;
   choose_models(settings, document, problems);
   Describer description;
   describe(description, settings);
   read_settings(description, document, problems);
+  explain(replaced, description, document, problems);
   check_settings(settings, document, problems);
   problems.throw_if_any();
   if (toml) *toml = toml_in_scene(write_toml(description), name);

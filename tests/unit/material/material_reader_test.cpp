@@ -134,6 +134,24 @@ TEST(ReadMaterial, WhatIsNotGivenIsNotSet) {
       One{"s:2: strength.brittle_plastic: expected more than brittle_ductile (1.23 GPa)"});
 }
 
+/// Of a section that another model has replaced no constant is left; whoever misses them is told why.
+TEST(ReadMaterial, SaysThatAnotherModelHasReplacedTheSection) {
+  const auto problems = [](const std::string& overrides) {
+    return problems_of([&] { read_material("basalt", {library}, parse_document(overrides, "scene.toml")); });
+  };
+  const auto replaced = problems("[eos]\nmodel = \"mie_grueneisen\"\nc0 = \"3 km/s\"\n");
+  const auto why = std::ranges::find_if(replaced, [](const std::string& text) {
+    return text.starts_with("scene.toml:2: eos.model: \"mie_grueneisen\" is another model than \"tillotson\" of ") &&
+           text.ends_with("and replaces all of its section: no constant of that stays, so that all must be given");
+  });
+  EXPECT_NE(why, replaced.end());
+  EXPECT_EQ(std::ranges::count_if(replaced, [](const std::string& text) { return text.find("missing") != text.npos; }),
+            3)
+      << "density, S1, gamma0";
+  // A value that is wrong is no reason to explain anything, nor is one that is missing in a section of its own.
+  EXPECT_EQ(problems("[eos]\nA = \"-1 Pa\"\n").size(), 1u);
+}
+
 TEST(ReadMaterial, AnotherModelReplacesTheSection) {
   const Document overrides = parse_document(R"([porosity]
 model = "quadratic"
