@@ -34,7 +34,20 @@ Winner count_votes(Packages packages) {
   return winner;
 }
 
-void check_energy(Packages packages, const Clock& clock, double most) {
+/// Throws if a sum is no number, whatever made it so: no state of the packages can be trusted then.
+void check_finite(const Totals& now, const Clock& clock) {
+  const std::pair<const char*, double> sums[] = {{"mass", now.mass},
+                                                 {"momentum", now.momentum.sum()},
+                                                 {"angular momentum", now.angular_momentum.sum()},
+                                                 {"kinetic energy", now.kinetic},
+                                                 {"internal energy", now.internal}};
+  for (const auto& [name, sum] : sums)
+    if (!std::isfinite(sum))
+      throw SimulationError(fmt::format("time {:.6g} s, step {}: the {} of everything is not a finite number ({:.3g})",
+                                        clock.time, clock.step, name, sum));
+}
+
+void check_ledger(Packages packages, const Clock& clock, double most) {
   Totals initial, now;
   ExternalLoad load;
   for (const Package* package : packages) {
@@ -42,8 +55,9 @@ void check_energy(Packages packages, const Clock& clock, double most) {
     now += package->conserved();
     load += package->external;
   }
+  check_finite(now, clock);
   const double drift = conservation_errors(initial, now, load).energy;
-  if (!(std::abs(drift) <= most))  // so that no number at all is caught too
+  if (!(std::abs(drift) <= most))
     throw SimulationError(
         fmt::format("time {:.6g} s, step {}: total energy has drifted by {:.3g} of its value "
                     "(numerics.max_energy_drift = {:.3g})",
@@ -51,6 +65,7 @@ void check_energy(Packages packages, const Clock& clock, double most) {
 }
 
 Winner step_together(Packages packages, Clock& clock, StageTimers& timers, const Scene& scene, double dt_limit) {
+  if (clock.step == 0) check_ledger(packages, clock, scene.numerics.max_energy_drift);
   const Winner winner = count_votes(packages);
   if (!(winner.vote.dt > least_relative_step * scene.time_end))
     throw SimulationError(fmt::format(
@@ -65,7 +80,7 @@ Winner step_together(Packages packages, Clock& clock, StageTimers& timers, const
   for (Package* package : packages) package->advance(dt);
   timers.time("health", [&] {
     for (const Package* package : packages) package->check_health();
-    if (clock.step % steps_between_energy_checks == 0) check_energy(packages, clock, scene.numerics.max_energy_drift);
+    if (clock.step % steps_between_energy_checks == 0) check_ledger(packages, clock, scene.numerics.max_energy_drift);
   });
   return winner;
 }

@@ -69,16 +69,21 @@ std::string Sph<Dim>::describe(std::size_t i) const {
 template <int Dim>
 void Sph<Dim>::check_health() const {
   const Particles<Dim>& p = particles;
-  auto healthy = [&](std::size_t i) {
+  const auto finite = [&](std::size_t i) {
     double sum = p.column(Field::specific_energy)[i] + p.column(Field::density)[i];
     for (int a = 0; a < Dim; ++a)
       sum += p.column(Field::position, a)[i] + p.column(Field::velocity, a)[i] + p.column(Field::acceleration, a)[i];
-    return std::isfinite(sum) && p.column(Field::density)[i] > 0;
+    return std::isfinite(sum);
+  };
+  const auto healthy = [&](std::size_t i) {
+    return finite(i) && p.column(Field::density)[i] > 0 && std::isfinite(p.vector(Field::velocity, i).squaredNorm());
   };
   const IndexedMin worst = parallel_min(p.size(), 0.5, [&](std::size_t i) { return healthy(i) ? 1.0 : 0.0; });
   if (worst.index == p.size()) return;
-  throw SimulationError(fmt::format("time {:.6g} s, step {}, {}: state not finite or density not positive: {}",
-                                    clock.time, clock.step, origin_of_failure(*this, worst.index),
+  const bool state = !finite(worst.index) || !(p.column(Field::density)[worst.index] > 0);
+  throw SimulationError(fmt::format("time {:.6g} s, step {}, {}: {}: {}", clock.time, clock.step,
+                                    origin_of_failure(*this, worst.index),
+                                    state ? "state not finite or density not positive" : "kinetic energy not finite",
                                     describe(worst.index)));
 }
 

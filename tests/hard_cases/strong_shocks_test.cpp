@@ -133,13 +133,14 @@ TEST(StrongShocks, AnyImpactSpeedRunsOrIsNamed) {
     EXPECT_LT(std::abs(outcome.conservation.energy), 1e-13) << speed;
     EXPECT_GE(outcome.least_energy, -1e-9) << speed;  // round-off of 4.5e16 J/kg
   }
-  for (const char* speed : {"1e12 m/s", "1e100 m/s", "1e200 m/s"}) {
+  for (const char* speed : {"1e12 m/s", "1e100 m/s"}) {
     const auto sim = start<3>(porous_impact, {std::string("bodies.ball.velocity=0 0 -") + speed});
     const Outcome outcome = follow(*sim, 60);
     EXPECT_TRUE((mentions(outcome.error, "by the ") && mentions(outcome.error, "particle ")) ||
                 mentions(outcome.error, "total energy has drifted"))
         << speed << ' ' << outcome.error;
   }
+  EXPECT_THROW(start<3>(porous_impact, {"bodies.ball.velocity=0 0 -1e200 m/s"}), InputError);
 }
 
 /// Nylon thrown at rock at 6 km/s passes the narrow band between its incipient and complete vaporisation, where heating
