@@ -1,5 +1,7 @@
 #include "app/job.hpp"
 
+#include <algorithm>
+
 #include "app/options.hpp"
 #include "app/resources.hpp"
 #include "base/errors.hpp"
@@ -33,9 +35,9 @@ Job read_input(const std::string& scene_file, const std::vector<std::string>& ov
 
 Job read_job(const std::string& scene_file, const std::vector<std::string>& overrides) {
   Job job = read_input(scene_file, overrides);
+  set_threads(std::min(job.scene.threads.value_or(available_cores()), available_cores()));
   check_memory(job.scene, job.materials.list);
   if (const std::string& caught = job.scene.fragments.measured; !caught.empty()) measured_masses(caught);
-  set_threads(job.scene.threads.value_or(available_cores()));
   const InSitu& insitu = job.scene.insitu;
   if (!insitu.enabled) return job;
   check_pipeline_scripts(pipelines_of(job.scene));

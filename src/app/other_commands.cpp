@@ -9,6 +9,7 @@
 #include "app/job.hpp"
 #include "app/log.hpp"
 #include "app/options.hpp"
+#include "app/remarks.hpp"
 #include "app/resources.hpp"
 #include "base/data_folder.hpp"
 #include "base/errors.hpp"
@@ -75,10 +76,8 @@ int check_command(const std::string& scene_file, const std::vector<std::string>&
   Simulation sim = set_up_simulation(scene, materials.list);
   for (const std::string& odd : place_probes(sim)) spdlog::warn("{}", odd);
   const std::chrono::duration<double> set_up_time = std::chrono::steady_clock::now() - start;
-  for (const auto& package : sim.packages) {
-    fmt::print("{}", package->outline());
-    say(package->remarks_at_start());
-  }
+  for (const auto& package : sim.packages) fmt::print("{}", package->outline());
+  say(remarks_on(job, sim));
   fmt::print("set-up\n");
   for (const auto& package : sim.packages) fmt::print("  {:<18} {}\n", package->name(), package->elements());
   if (sim.clock.time > 0)
@@ -100,7 +99,7 @@ int check_command(const std::string& scene_file, const std::vector<std::string>&
                paraview > 0 ? fmt::format(", {:.2g} GB of ParaView", paraview / 1e9) : "");
     fmt::print("  steps              {:.0f}, while nothing is faster than at the start\n", steps);
     fmt::print("  wall time          about {} on {} threads, without in-situ work\n", format_quantity(seconds, "s"),
-               scene.threads.value_or(available_cores()));
+               max_threads());
   }
   return 0;
 }

@@ -8,6 +8,7 @@
 #include "app/job.hpp"
 #include "app/log.hpp"
 #include "app/options.hpp"
+#include "app/remarks.hpp"
 #include "app/run_folder.hpp"
 #include "app/run_lock.hpp"
 #include "app/signals.hpp"
@@ -237,7 +238,7 @@ int run(const Job& job) {
     spdlog::info("{}: {} {}s in {}D, {} threads, {:.0f} bytes each", job.scene.name, package->elements(),
                  package->element(), job.scene.dimension, max_threads(),
                  static_cast<double>(package->bytes()) / static_cast<double>(package->elements()));
-  for (const auto& package : sim.packages) say(package->remarks_at_start());
+  say(remarks_on(job, sim));
   Ending ending;
   try {
     try {

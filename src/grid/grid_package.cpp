@@ -45,7 +45,7 @@ Estimate estimate(const Scene& scene, const std::vector<Material>& materials) {
   e.steps = crossings / grid_settings(scene).courant_in(Dim);
   if (scene.max_steps) e.steps = std::min(e.steps, static_cast<double>(*scene.max_steps));
   e.seconds = (scene.charge ? 0.5 : 1) * e.elements * e.steps /
-              (cell_steps_per_s[Dim - 2] * scene.threads.value_or(available_cores()));
+              (cell_steps_per_s[Dim - 2] * max_threads());
   return e;
 }
 

@@ -56,7 +56,7 @@ Estimate estimate_particles(const Scene& scene, const std::vector<Material>& mat
                                                                 : bytes_of_columns<3>(scene, materials));
   e.steps = scene.time_end / least_step;
   if (scene.max_steps) e.steps = std::min(e.steps, static_cast<double>(*scene.max_steps));
-  const int threads = scene.threads.value_or(available_cores());
+  const int threads = max_threads();
   e.seconds = e.elements * e.steps / (particle_steps_per_s * threads);
   return e;
 }
