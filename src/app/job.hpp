@@ -23,8 +23,9 @@ struct Job {
 /// Reads scene and materials and nothing more. Throws InputError with what is wrong in them.
 Job read_input(const std::string& scene_file, const std::vector<std::string>& overrides);
 
-/// Reads scene and materials, and takes the threads that the scene asks for, as far as there are cores. Throws InputError with what is wrong in
-/// them, if they need more memory than is free, and if pipelines are no Python or cannot be drawn as the scene insists.
+/// Reads scene and materials, and takes the threads that the scene asks for, as far as there are cores. Throws
+/// InputError with what is wrong in them, if they need more memory than is free, and if pipelines are no Python or
+/// cannot be drawn as the scene insists.
 Job read_job(const std::string& scene_file, const std::vector<std::string>& overrides);
 
 }  // namespace ejecta

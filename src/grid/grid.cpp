@@ -136,7 +136,8 @@ bool Grid<Dim>::is_quiet(std::size_t t) const {
     rest /= n;
     const bool at_lower = place[a] == 0, at_upper = place[a] + 1 == tile_counts_[a];
     // Gas that moves towards its mirror image does not stay as it is.
-    if (state[1 + a] != 0 && ((at_lower && mirrors(box_.lower[a])) || (at_upper && mirrors(box_.upper[a])))) return false;
+    if (state[1 + a] != 0 && ((at_lower && mirrors(box_.lower[a])) || (at_upper && mirrors(box_.upper[a]))))
+      return false;
   }
   constexpr int neighbours = Dim == 2 ? 9 : 27;
   for (int n = 0; n < neighbours; ++n) {
@@ -281,9 +282,10 @@ void Grid<Dim>::step(double dt, int halvings) {
     return;
   }
   if (halvings == 0)
-    throw SimulationError(fmt::format("time {:.6g} s, step {}: density or energy does not stay positive on the grid, "
-                                      "whatever the step, down to {:.3g} s",
-                                      clock.time, clock.step, dt));
+    throw SimulationError(
+        fmt::format("time {:.6g} s, step {}: density or energy does not stay positive on the grid, "
+                    "whatever the step, down to {:.3g} s",
+                    clock.time, clock.step, dt));
   step(0.5 * dt, halvings - 1);
   step(0.5 * dt, halvings - 1);
 }
@@ -335,8 +337,7 @@ void Grid<Dim>::persist(Archive& archive) {
   const std::size_t size = archive.size(box_.size());
   for (auto& column : now_) column.resize(size);
   archive.column("density", "kg/m^3", now_[0]);
-  for (std::size_t a = 0; a < Dim; ++a)
-    archive.column(fmt::format("momentum_{}", "xyz"[a]), "kg/(m^2 s)", now_[1 + a]);
+  for (std::size_t a = 0; a < Dim; ++a) archive.column(fmt::format("momentum_{}", "xyz"[a]), "kg/(m^2 s)", now_[1 + a]);
   archive.column("energy", "J/m^3", now_[Dim + 1]);
   if (archive.reads()) cut_tiles();
 }
@@ -367,18 +368,20 @@ std::size_t Grid<Dim>::bytes() const {
 template <int Dim>
 std::string Grid<Dim>::outline() const {
   std::string text = "grid\n";
-  text += fmt::format("  cells              {} of {}\n", fmt::join(box_.cells, " x "), format_quantity(box_.spacing, "m"));
+  text +=
+      fmt::format("  cells              {} of {}\n", fmt::join(box_.cells, " x "), format_quantity(box_.spacing, "m"));
   text += fmt::format("  fluid              {}\n", material_.name);
   text += fmt::format("  columns            density, momentum, energy, twice: {} bytes a cell\n", 2 * (Dim + 2) * 8);
-  text += fmt::format("  tiles              {} of at most {} cells\n", tiles_.size(),
-                      fmt::join(tile_shape<Dim>(), " x "));
+  text +=
+      fmt::format("  tiles              {} of at most {} cells\n", tiles_.size(), fmt::join(tile_shape<Dim>(), " x "));
   return text;
 }
 
 template <int Dim>
 std::vector<Remark> Grid<Dim>::remarks() const {
   if (first_order_ == 0) return {};
-  return {{fmt::format("grid: {:.0f} times a cell passed fluxes of first order, to stay positive", first_order_), false}};
+  return {
+      {fmt::format("grid: {:.0f} times a cell passed fluxes of first order, to stay positive", first_order_), false}};
 }
 
 template class Grid<2>;

@@ -45,7 +45,8 @@ Box<Dim> box_of(const Scene& scene, double reached) {
     }
     if (!is_set(low) || !is_set(high)) {
       if (!(least < most)) {
-        report("boundary", fmt::format("needs min and max along {}: there is no body that the grid could begin around", axes[a]));
+        report("boundary",
+               fmt::format("needs min and max along {}: there is no body that the grid could begin around", axes[a]));
         continue;
       }
       box.grows_lower[a] = scene.gas && !is_set(low);
@@ -87,9 +88,10 @@ Conserved<Dim> fill_cells(const Scene& scene, const std::vector<Material>& mater
   Conserved<Dim> cells;
   for (auto& column : cells) column.resize(box.size());
   const auto refuse = [&](const Vec<Dim>& x) {
-    throw InputError(fmt::format("{}: bodies: expected something in every cell of the grid, got nothing in that at ({}) m; "
-                                 "[gas] fills what bodies leave",
-                                 scene.file, fmt::join(x.begin(), x.end(), ", ")));
+    throw InputError(
+        fmt::format("{}: bodies: expected something in every cell of the grid, got nothing in that at ({}) m; "
+                    "[gas] fills what bodies leave",
+                    scene.file, fmt::join(x.begin(), x.end(), ", ")));
   };
   for (std::size_t i = 0; i < box.size(); ++i) {
     const Vec<Dim> centre = box.centre(box.cell(i));
@@ -126,8 +128,10 @@ const Material& grid_material(const Scene& scene, const std::vector<Material>& m
     const auto report = [&](const std::string& text) {
       problems.push_back(fmt::format("{}: bodies.{}: {}", body.origin, body.name, text));
     };
-    if (m.solid()) report(fmt::format("expected a fluid, got {}: numerics.scheme = \"fvm\" carries no strength", m.name));
-    if (m.porosity) report(fmt::format("expected matter without pores, got {}: numerics.scheme = \"fvm\" does not crush", m.name));
+    if (m.solid())
+      report(fmt::format("expected a fluid, got {}: numerics.scheme = \"fvm\" carries no strength", m.name));
+    if (m.porosity)
+      report(fmt::format("expected matter without pores, got {}: numerics.scheme = \"fvm\" does not crush", m.name));
     if (body.material != scene.bodies[0].material)
       report(fmt::format("expected {}, as {} is made of, got {}: a grid carries one material", scene.bodies[0].material,
                          scene.bodies[0].name, m.name));
@@ -135,7 +139,9 @@ const Material& grid_material(const Scene& scene, const std::vector<Material>& m
     if (!body.profile.displacement.empty()) report("profile.displacement: moves particles, and there are none");
   }
   const auto refuse = [&](bool asked, const char* key, const char* why) {
-    if (asked) problems.push_back(fmt::format("{}: {}: expected false with numerics.scheme = \"fvm\": {}", scene.file, key, why));
+    if (asked)
+      problems.push_back(
+          fmt::format("{}: {}: expected false with numerics.scheme = \"fvm\": {}", scene.file, key, why));
   };
   refuse(scene.fragments.enabled, "fragments.enabled", "a fluid has no pieces");
   refuse(scene.output.peaks, "output.peaks", "cells do not follow matter");

@@ -44,8 +44,7 @@ Estimate estimate(const Scene& scene, const std::vector<Material>& materials) {
   e.bytes_each = 2 * (Dim + 2) * sizeof(double);
   e.steps = crossings / grid_settings(scene).courant_in(Dim);
   if (scene.max_steps) e.steps = std::min(e.steps, static_cast<double>(*scene.max_steps));
-  e.seconds = (scene.charge ? 0.5 : 1) * e.elements * e.steps /
-              (cell_steps_per_s[Dim - 2] * max_threads());
+  e.seconds = (scene.charge ? 0.5 : 1) * e.elements * e.steps / (cell_steps_per_s[Dim - 2] * max_threads());
   return e;
 }
 
@@ -53,12 +52,16 @@ Estimate estimate(const Scene& scene, const std::vector<Material>& materials) {
 
 PackageKind grid_package() {
   PackageKind kind;
-  kind.section = {"grid", "finite volumes: how fluxes are found", [] { return std::make_shared<GridSettings>(); }, {"fvm", "hybrid"}};
+  kind.section = {"grid",
+                  "finite volumes: how fluxes are found",
+                  [] { return std::make_shared<GridSettings>(); },
+                  {"fvm", "hybrid"}};
   kind.set_up = [](const Scene& scene, const std::vector<Material>& materials) -> std::unique_ptr<Package> {
     if (scene.dimension == 2) return std::make_unique<Grid<2>>(scene, materials);
     return std::make_unique<Grid<3>>(scene, materials);
   };
-  kind.fields = {{"density", "kg/m^3"}, {"pressure", "Pa"}, {"velocity", "m/s"}, {"specific_energy", "J/kg"}, {"mach", "1"}};
+  kind.fields = {
+      {"density", "kg/m^3"}, {"pressure", "Pa"}, {"velocity", "m/s"}, {"specific_energy", "J/kg"}, {"mach", "1"}};
   kind.estimate = [](const Scene& scene, const std::vector<Material>& materials) {
     return scene.dimension == 2 ? estimate<2>(scene, materials) : estimate<3>(scene, materials);
   };

@@ -15,7 +15,8 @@ std::optional<CellState<Dim>> Grid<Dim>::at(const Vec<Dim>& x) const {
   bool beyond = false;
   for (std::size_t a = 0; a < Dim; ++a) {
     cell[a] = static_cast<int>(std::floor((x[static_cast<int>(a)] - box_.corner[static_cast<int>(a)]) / box_.spacing));
-    if ((cell[a] < 0 && !box_.grows_lower[a]) || (cell[a] >= box_.cells[a] && !box_.grows_upper[a])) return std::nullopt;
+    if ((cell[a] < 0 && !box_.grows_lower[a]) || (cell[a] >= box_.cells[a] && !box_.grows_upper[a]))
+      return std::nullopt;
     beyond = beyond || cell[a] < 0 || cell[a] >= box_.cells[a];
   }
   return beyond ? ambient() : state(box_.index(cell));

@@ -50,8 +50,7 @@ Estimate estimate(const Scene& scene, const std::vector<Material>& materials) {
   e.bytes_each = 700;
   e.steps = crossings / grid_settings(scene).courant_in(Dim);
   if (scene.max_steps) e.steps = std::min(e.steps, static_cast<double>(*scene.max_steps));
-  e.seconds = (scene.charge ? 0.5 : 1) * e.elements * e.steps * steps_in_one /
-              (particle_steps_per_s * max_threads());
+  e.seconds = (scene.charge ? 0.5 : 1) * e.elements * e.steps * steps_in_one / (particle_steps_per_s * max_threads());
   return e;
 }
 

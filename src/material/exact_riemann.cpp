@@ -24,7 +24,10 @@ double change_across(const GasState& side, double sound, double gamma, double p)
 }  // namespace
 
 ExactRiemann::ExactRiemann(const GasState& left, const GasState& right, double gamma)
-    : left_(left), right_(right), gamma_(gamma), sound_left_(sound_speed(left, gamma)),
+    : left_(left),
+      right_(right),
+      gamma_(gamma),
+      sound_left_(sound_speed(left, gamma)),
       sound_right_(sound_speed(right, gamma)) {
   const double apart = right.velocity - left.velocity;
   if (apart >= 2 * (sound_left_ + sound_right_) / (gamma - 1)) return;  // Toro 2009, eq. 4.82
@@ -42,8 +45,8 @@ ExactRiemann::ExactRiemann(const GasState& left, const GasState& right, double g
     low = bracket.first, high = bracket.second;
   }
   const double p = 0.5 * (low + high);
-  const double u = 0.5 * (left.velocity + right.velocity) + 0.5 * (change_across(right, sound_right_, gamma, p) -
-                                                                    change_across(left, sound_left_, gamma, p));
+  const double u = 0.5 * (left.velocity + right.velocity) +
+                   0.5 * (change_across(right, sound_right_, gamma, p) - change_across(left, sound_left_, gamma, p));
   star_ = Star{p, u};
 }
 
@@ -71,8 +74,8 @@ GasState ExactRiemann::behind_left_wave(const GasState& side, double contact, do
   }
   const GasState star{star_density(side), contact, star_->pressure};
   if (star_->pressure > side.pressure) {
-    const double shock = side.velocity - std::sqrt(((gamma_ + 1) * star_->pressure + (gamma_ - 1) * side.pressure) /
-                                                   (2 * side.density));
+    const double shock =
+        side.velocity - std::sqrt(((gamma_ + 1) * star_->pressure + (gamma_ - 1) * side.pressure) / (2 * side.density));
     return speed <= shock ? side : star;
   }
   if (speed <= side.velocity - c) return side;
@@ -82,8 +85,9 @@ GasState ExactRiemann::behind_left_wave(const GasState& side, double contact, do
 GasState ExactRiemann::at(double speed) const {
   // A vacuum lies between the edges of both fans: each side answers up to its own.
   const double contact =
-      star_ ? star_->velocity
-            : 0.5 * (left_.velocity + 2 * sound_left_ / (gamma_ - 1) + right_.velocity - 2 * sound_right_ / (gamma_ - 1));
+      star_
+          ? star_->velocity
+          : 0.5 * (left_.velocity + 2 * sound_left_ / (gamma_ - 1) + right_.velocity - 2 * sound_right_ / (gamma_ - 1));
   if (speed <= contact) return behind_left_wave(left_, contact, speed);
   GasState mirrored = behind_left_wave({right_.density, -right_.velocity, right_.pressure}, -contact, -speed);
   mirrored.velocity = -mirrored.velocity;

@@ -23,8 +23,7 @@ std::int64_t folder_bytes(const std::filesystem::path& folder) {
 }
 
 template <int Dim>
-std::vector<BodySummary> summarise_bodies(const Sph<Dim>& sph, const Frames& frames,
-                                          const FragmentContext& context) {
+std::vector<BodySummary> summarise_bodies(const Sph<Dim>& sph, const Frames& frames, const FragmentContext& context) {
   std::vector<BodySummary> bodies(context.bodies.size());
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     bodies[b].name = context.bodies[b];
@@ -88,8 +87,7 @@ Summary summarise(const Simulation& sim, const Frames& frames, const FragmentCon
   with_particles(sim, [&](const auto& sph) { add_particles(s, sim, sph, frames, context); });
   with_grid(sim, [&](const auto& grid) {
     s.cells = static_cast<std::int64_t>(grid.elements());
-    if (sim.wall_seconds > 0)
-      s.cell_steps_per_s = grid.element_steps() / sim.wall_seconds;
+    if (sim.wall_seconds > 0) s.cell_steps_per_s = grid.element_steps() / sim.wall_seconds;
   });
   s.peak_rss_mb = memory_peak() / (1024 * 1024);
   s.mass_error_rel = errors.mass;

@@ -39,7 +39,7 @@ class Reader final : public Archive {
   Reader(const Checkpoint& checkpoint, std::string prefix) : checkpoint_(checkpoint), prefix_(std::move(prefix)) {}
 
   bool reads() const override { return true; }
-  bool has(const std::string& name) const override { 
+  bool has(const std::string& name) const override {
     return checkpoint_.scalars.contains(prefix_ + name) || checkpoint_.columns.contains(prefix_ + name);
   }
   std::size_t size(std::size_t) override { return checkpoint_.size(prefix_); }

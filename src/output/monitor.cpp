@@ -51,9 +51,11 @@ std::string limits_json(const MonitorLimits& limits) {
     return fmt::format("[{},{},{},{}]", short_json(limits.time[i]), short_json(limits.dt[i]), cause - causes.begin(),
                        json_list(limits.place[i], short_json));
   };
-  return fmt::format(R"({{"causes":{},"rows":{}}})", json_list(causes, [](const auto& cause) {
-                       return fmt::format("[{},{}]", to_json(cause.first), short_json(cause.second));
-                     }),
+  return fmt::format(R"({{"causes":{},"rows":{}}})",
+                     json_list(causes,
+                               [](const auto& cause) {
+                                 return fmt::format("[{},{}]", to_json(cause.first), short_json(cause.second));
+                               }),
                      json_list(telling_rows(limits.dt, most_points), row));
 }
 

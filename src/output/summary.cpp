@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "output/atomic_file.hpp"
 #include "base/json.hpp"
+#include "output/atomic_file.hpp"
 
 namespace ejecta {
 

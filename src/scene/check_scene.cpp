@@ -74,8 +74,9 @@ void check_body(const Scene& scene, const Body& body, const std::string& path, c
     report(path + (body.velocity[2] != 0 ? ".velocity" : ".center"), "expected no z component in 2D");
   constexpr double fastest = 1e150;  // m/s; squares of more overflow
   if (const auto& [x, y, z] = body.velocity; !(std::hypot(x, y, z) < fastest))
-    report(path + ".velocity", fmt::format("expected less than {:.0e} m/s, so that energies are numbers, got {:.3g} m/s",
-                                           fastest, std::hypot(x, y, z)));
+    report(path + ".velocity",
+           fmt::format("expected less than {:.0e} m/s, so that energies are numbers, got {:.3g} m/s", fastest,
+                       std::hypot(x, y, z)));
   if (is_set(body.pressure) && body.specific_energy != 0)
     report(path + ".pressure", "expected either pressure or specific_energy, got both");
 }

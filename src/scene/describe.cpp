@@ -301,7 +301,9 @@ void describe(Describer& d, Scene& s, const std::vector<SceneSection>& sections)
   d.section("output", "files");
   describe(d, s.output);
   d.section("run", "the machine");
-  d.integer("threads", s.threads, between(0, 4096), "0: all cores; no more than these are taken; never changes the result").zero_is_unset = true;
+  d.integer("threads", s.threads, between(0, 4096),
+            "0: all cores; no more than these are taken; never changes the result")
+      .zero_is_unset = true;
   d.section("random", "chance");
   d.integer("seed", s.seed, "of the flaws in brittle bodies, of jitter and glass");
 }

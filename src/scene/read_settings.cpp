@@ -129,7 +129,8 @@ struct Assign {
     *target = std::move(texts);
   }
   void operator()(std::vector<double>* target) const {
-    const std::string expected = "a list, each " + with_limits(expected_quantity(setting.unit), setting.limits, setting.unit);
+    const std::string expected =
+        "a list, each " + with_limits(expected_quantity(setting.unit), setting.limits, setting.unit);
     const auto* list = std::get_if<LiteralList>(&literal.value);
     if (!list) refuse(expected, literal);
     std::vector<double> values;

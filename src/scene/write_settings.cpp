@@ -96,7 +96,9 @@ struct Kind {
   std::string operator()(const bool*) const { return "true or false"; }
   std::string operator()(const std::string*) const { return "a text"; }
   std::string operator()(const std::vector<std::string>*) const { return "a list of texts"; }
-  std::string operator()(const std::vector<double>*) const { return with_limits("a list, each " + expected_quantity(setting.unit)); }
+  std::string operator()(const std::vector<double>*) const {
+    return with_limits("a list, each " + expected_quantity(setting.unit));
+  }
   std::string operator()(const FrameTimes*) const {
     return fmt::format("\"{}\", or a list, each {}", dense_early_word, expected_quantity(setting.unit));
   }

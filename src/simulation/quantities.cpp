@@ -26,9 +26,11 @@ Quantities quantities(const Simulation& sim) {
   if (std::ranges::any_of(sim.packages, loaded))
     list.push_back({"external work", energy, external(sim).work, "on driven bodies"});
   list.push_back({"energy error", "1", errors.energy,
-                  "(total - initial total - external work) / the largest of initial total, initial kinetic, work", true});
+                  "(total - initial total - external work) / the largest of initial total, initial kinetic, work",
+                  true});
   for (int a = 0; a < sim.scene.dimension; ++a)
-    list.push_back({fmt::format("momentum {}", axes[static_cast<std::size_t>(a)]), momentum, now.momentum[a], "of everything"});
+    list.push_back(
+        {fmt::format("momentum {}", axes[static_cast<std::size_t>(a)]), momentum, now.momentum[a], "of everything"});
   if (kept(sim).angular_momentum) {
     for (int a = flat ? 2 : 0; a < 3; ++a)
       list.push_back({fmt::format("angular momentum {}", axes[static_cast<std::size_t>(a)]), angular,

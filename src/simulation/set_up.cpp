@@ -7,8 +7,7 @@ Simulation set_up_simulation(const Scene& scene, const std::vector<Material>& ma
   Simulation sim;
   sim.scene = scene;
   for (const PackageKind& kind : package_kinds())
-    if (kind.in(scene))
-      sim.packages.push_back(kind.set_up(scene, materials));
+    if (kind.in(scene)) sim.packages.push_back(kind.set_up(scene, materials));
   if (!sim.packages.empty()) sim.clock = sim.packages.front()->clock;
   return sim;
 }

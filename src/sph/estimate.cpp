@@ -12,7 +12,8 @@ namespace ejecta {
 
 namespace {
 
-/// Pair lists, records and sums over the surroundings of a particle, measured with a solid in 3D at about 70 neighbours.
+/// Pair lists, records and sums over the surroundings of a particle, measured with a solid in 3D at about 70
+/// neighbours.
 constexpr double bytes_of_lists = 800;
 /// Of one core, measured with the same solid (the shipped pumice scene, AVX-512 at 2.1 GHz).
 constexpr double particle_steps_per_s = 0.22e6;
@@ -52,8 +53,8 @@ Estimate estimate_particles(const Scene& scene, const std::vector<Material>& mat
     const double sound = resting_sound_speed(*material, body);
     least_step = std::min(least_step, n.courant * n.nodes_per_h * spacing / (sound * (1 + 0.6 * n.damping_alpha())));
   }
-  e.bytes_each = bytes_of_lists + (scene.dimension == 2 ? bytes_of_columns<2>(scene, materials)
-                                                                : bytes_of_columns<3>(scene, materials));
+  e.bytes_each = bytes_of_lists +
+                 (scene.dimension == 2 ? bytes_of_columns<2>(scene, materials) : bytes_of_columns<3>(scene, materials));
   e.steps = scene.time_end / least_step;
   if (scene.max_steps) e.steps = std::min(e.steps, static_cast<double>(*scene.max_steps));
   const int threads = max_threads();

@@ -41,11 +41,11 @@ std::vector<Remark> Sph<Dim>::remarks() const {
                     true});
   if (const ShapeReport& r = shape_report; r.votes > 0) {
     const double percent = 100 / static_cast<double>(r.votes);
-    list.push_back({fmt::format("shape of H: {} votes; {:.3g} % had too few neighbours, {:.3g} % changed as much as "
-                                "allowed, {:.3g} % reached the largest aspect",
-                                r.votes, percent * static_cast<double>(r.few_neighbours),
-                                percent * static_cast<double>(r.limited_change),
-                                percent * static_cast<double>(r.largest_aspect))});
+    list.push_back({fmt::format(
+        "shape of H: {} votes; {:.3g} % had too few neighbours, {:.3g} % changed as much as "
+        "allowed, {:.3g} % reached the largest aspect",
+        r.votes, percent * static_cast<double>(r.few_neighbours), percent * static_cast<double>(r.limited_change),
+        percent * static_cast<double>(r.largest_aspect))});
   }
   return list;
 }
@@ -81,10 +81,9 @@ void Sph<Dim>::check_health() const {
   const IndexedMin worst = parallel_min(p.size(), 0.5, [&](std::size_t i) { return healthy(i) ? 1.0 : 0.0; });
   if (worst.index == p.size()) return;
   const bool state = !finite(worst.index) || !(p.column(Field::density)[worst.index] > 0);
-  throw SimulationError(fmt::format("time {:.6g} s, step {}, {}: {}: {}", clock.time, clock.step,
-                                    origin_of_failure(*this, worst.index),
-                                    state ? "state not finite or density not positive" : "kinetic energy not finite",
-                                    describe(worst.index)));
+  throw SimulationError(fmt::format(
+      "time {:.6g} s, step {}, {}: {}: {}", clock.time, clock.step, origin_of_failure(*this, worst.index),
+      state ? "state not finite or density not positive" : "kinetic energy not finite", describe(worst.index)));
 }
 
 template void Sph<2>::check_health() const;

@@ -20,6 +20,9 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 5> former_na
     {"crack_length", "crack"},
 }};
 
+/// States that begin at zero: a run that had none, by its settings or of an earlier version, goes on with them.
+constexpr std::array begin_at_zero{Field::volume_excess};
+
 std::string_view name_in(const Archive& archive, std::string_view name) {
   const auto former = std::ranges::find(former_names, name, &std::pair<std::string_view, std::string_view>::first);
   if (former == former_names.end() || !archive.reads() || archive.has(std::string(name))) return name;
@@ -40,6 +43,10 @@ void Sph<Dim>::persist(Archive& archive) {
     for (int k = 0; k < count; ++k) {
       const std::string name = count == 1 ? std::string(saved) : fmt::format("{}_{}", saved, k);
       if (f.role == Role::derived && !archive.has(name)) continue;  // made again by the stages
+      if (std::ranges::find(begin_at_zero, field) != begin_at_zero.end() && !archive.has(name)) {
+        std::ranges::fill(p.column(field, k), 0.0);
+        continue;
+      }
       archive.column(name, f.unit, p.column(field, k));
       if (f.role == Role::rate) archive.column("previous_" + name, f.unit, p.previous(field, k));
     }

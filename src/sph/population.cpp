@@ -43,7 +43,8 @@ void remove_particles(Sph<Dim>& sph, std::span<const char> doomed) {
   Particles<Dim>& p = sph.particles;
   std::vector<std::uint32_t> order(p.size());
   std::iota(order.begin(), order.end(), 0u);
-  const auto first_doomed = std::stable_partition(order.begin(), order.end(), [&](std::uint32_t i) { return !doomed[i]; });
+  const auto first_doomed =
+      std::stable_partition(order.begin(), order.end(), [&](std::uint32_t i) { return !doomed[i]; });
   for (auto i = first_doomed; i != order.end(); ++i) book(sph, *i, -1);
   p.reorder(order);
   p.resize(static_cast<std::size_t>(first_doomed - order.begin()));

@@ -7,7 +7,7 @@ import unittest
 
 import h5py
 
-from ejecta_run import IMPACT_2D, PROGRAM, RunTest, Table, ejecta, movie_frames, settings, summary
+from ejecta_run import IMPACT_2D, PROGRAM, SOURCE, RunTest, Table, ejecta, movie_frames, settings, summary
 
 # Long enough to be caught in the middle and to sort the particles several times.
 VALUES = {"resolution.spacing": "2mm", "time.end": "100us", "insitu.frames": 6, "insitu.max_share": 1,
@@ -77,6 +77,21 @@ class Restart(RunTest):
         result = ejecta("run", IMPACT_2D, "--out", out, "--threads", 1, "--restart", *settings(values))
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(Table(out / "history.csv").rows[-1], Table(whole / "history.csv").rows[-1])
+
+    def test_volumes_that_fill_space(self):
+        scene = SOURCE / "tests/verification/sod/gsph.toml"
+        values = {"resolution.spacing": "2.5mm", "time.max_steps": 60}
+        whole = self.run_scene(scene, "whole", values, "--threads", 1)
+        ends = {}
+        for name, fills in (("same", "auto"), ("without", "false")):
+            begun = values | {"time.max_steps": 30, "numerics.fill_space": fills}
+            self.run_scene(scene, name, begun, "--threads", 2)
+            out = self.run_scene(scene, name, values, "--threads", 1, "--restart", "--accept-changes")
+            ends[name] = Table(out / "history.csv").rows[-1]
+        self.assertEqual(ends["same"], Table(whole / "history.csv").rows[-1])
+        # A run that had none, as all had once, goes on with volumes by number.
+        self.assertEqual(ends["without"][1], ends["same"][1])
+        self.assertNotEqual(ends["without"], ends["same"])
 
     def assert_same_end(self, out, whole):
         """Bit for bit, in the last row and in all rows but what the pieces were at the last frame."""
