@@ -11,7 +11,7 @@
 ///   Flux::Lanes<V, Dim, R, Strained>          the lanes i of a cluster against one partner j:
 ///     Lanes(load, settings)
 ///     jump(dx, along, j)                      what of v.x = `along` it acts on (Jump)
-///     between(support, partner, closing, weight)   what passes (PairFlux)
+///     between(support, partner, closing, share)    what passes (PairFlux)
 /// The loop adds p_ij to both stresses and -p_ij v_ji.g_ij/2 to the heat of either side, so that momentum and energy
 /// are exact whatever the flux, as long as p_ij is the same number seen from i and from j.
 ///
@@ -31,7 +31,7 @@ struct Jump {
 
 template <class V>
 struct PairFlux {
-  V pressure;  ///< p_ij beyond both stresses, times `weight` = share r_i r_j, as those of the records are [Pa]
+  V pressure;  ///< p_ij beyond both stresses, times `share` and r_i r_j, as those of the records are [Pa]
   V approach;  ///< signal: at most 0; what votes on the time step [m/s]
 };
 /// With `uneven`.

@@ -29,7 +29,8 @@ V dot(const V (&a)[Dim], const V (&b)[Dim]) {
   return sum;
 }
 
-/// ((A + Sign B - pressure I) . g)_a with tensors stored row by row, or one number each for isotropic stresses.
+/// ((A + Sign B - pressure I) . g)_a with tensors stored row by row, or one number each for isotropic stresses. The same
+/// number wherever it is inlined.
 template <bool Stress, int Dim, int Sign = 1, class TensorA, class TensorB, class V>
 [[gnu::always_inline]] inline void contract(const TensorA& A, const TensorB& B, V pressure, const V (&g)[Dim],
                                             V (&f)[Dim]) {
@@ -40,7 +41,7 @@ template <bool Stress, int Dim, int Sign = 1, class TensorA, class TensorB, clas
   for (int a = 0; a < Dim; ++a) {
     f[a] = both(Stress ? a * Dim : 0) * g[Stress ? 0 : a];
     if constexpr (Stress)
-      for (int b = 1; b < Dim; ++b) f[a] += both(a * Dim + b) * g[b];
+      for (int b = 1; b < Dim; ++b) f[a] = simd::fused(both(a * Dim + b), g[b], f[a]);
   }
 }
 

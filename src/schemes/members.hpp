@@ -19,26 +19,49 @@ struct Bond<V, Dim, true> {
   V between[Dim], own, stretch2;  ///< separation that the kernel sees; 1 for neighbours; of a bond, else 0
 };
 
-/// A candidate as the lanes of a cluster see it.
+/// What the loop keeps of a candidate from one body to the next: as little as it can, for stores take the time of
+/// multiplications.
 template <class T, class V, int Dim, RecordKind Kind, class Pair>
-struct Partner : Bond<V, Dim, Kind.bonded> {
-  V dx[Dim], r2;  ///< x_j - x_i
-  V along;        ///< v.x, from the first body on
+struct Candidate : Bond<V, Dim, Kind.bonded> {
+  V r2;     ///< square of |x_j - x_i|
+  V along;  ///< v.x, from the first body on
   Pair pair;
   const T *record, *contact;  ///< contact: only with contacts
   bool foreign;               ///< in some lane of another piece; only with contacts
+};
 
+/// A candidate as the lanes of a cluster see it.
+template <class T, class V, int Dim, RecordKind Kind, class Pair>
+struct Partner {
+  using Kept = Candidate<T, V, Dim, Kind, Pair>;
+  Kept& kept;
+  V dx[Dim];  ///< x_j - x_i
+  const V& r2 = kept.r2;
+  V& along = kept.along;
+  const Pair& pair = kept.pair;
+  const T *record = kept.record, *contact = kept.contact;
+  bool foreign = kept.foreign;
+
+  template <class Members>
+  Partner(Kept& k, const Members& members) : kept(k) {
+    members.separation(record, dx);
+  }
+
+  /// Bit k: lane k reaches the partner, or the partner lane k.
+  unsigned lanes_reached() const { return simd::lanes_less(V{}, pair.reach()); }
+  bool reached() const { return lanes_reached() != 0; }
   /// What the kernel gradient is along the pair, over its length; of a bond along itself, which may have turned since.
   V central() const {
     if constexpr (Kind.bonded)
-      return pair.central(this->between, dot(this->between, this->between));
+      return pair.central(kept.between, dot(kept.between, kept.between));
     else
       return pair.central(dx, r2);
   }
   /// The kernel gradient times a factor.
-  void kernel_gradient(V (&g)[Dim], T factor = 1) const {
+  template <class Factor = T>
+  void kernel_gradient(V (&g)[Dim], Factor factor = 1) const {
     if constexpr (Kind.bonded)
-      pair.gradient(this->between, factor, g);
+      pair.gradient(kept.between, factor, g);
     else
       pair.gradient(dx, factor, g);
   }
@@ -76,12 +99,15 @@ struct Members {
     };
   }
 
-  /// Looks at the partner of p.record: `between` is the separation at which the kernel is taken, and its square.
-  template <bool Contacts, class Partner>
-  void meet(Partner& p, V (&between)[Dim], V& distance2) const {
+  /// x_j - x_i
+  void separation(const T* j, V (&dx)[Dim]) const { separation(x, x_low, j, R::x, R::x_low, dx); }
+  /// Looks at the candidate of p.record: `between` is the separation at which the kernel is taken, and its square.
+  template <bool Contacts, class Candidate>
+  void meet(Candidate& p, V (&between)[Dim], V& distance2) const {
     const T* j = p.record;
-    separation(x, x_low, j, R::x, R::x_low, p.dx);
-    p.r2 = dot(p.dx, p.dx);
+    V dx[Dim];
+    separation(j, dx);
+    p.r2 = dot(dx, dx);
     if constexpr (Contacts) p.foreign = any_differs(piece, j[R::piece]);
     if constexpr (Kind.bonded) {
       separation(place, place_low, j, R::place, R::place_low, between);
@@ -91,11 +117,11 @@ struct Members {
       p.own = apart > T(0) ? V{} : same;
       p.foreign = simd::any_less(p.own, V{} + T(1));
       const V holds = p.own * both;
-      for (int a = 0; a < Dim; ++a) p.between[a] = between[a] = holds > T(0) ? between[a] : p.dx[a];
+      for (int a = 0; a < Dim; ++a) p.between[a] = between[a] = holds > T(0) ? between[a] : dx[a];
       distance2 = holds > T(0) ? R2 : p.r2;
       p.stretch2 = holds > T(0) ? V(p.r2 / (R2 + T(1e-20))) : V{};
     } else {
-      for (int a = 0; a < Dim; ++a) between[a] = p.dx[a];
+      for (int a = 0; a < Dim; ++a) between[a] = dx[a];
       distance2 = p.r2;
     }
   }
@@ -103,14 +129,14 @@ struct Members {
   template <class Partner>
   V own(const Partner& p) const {
     if constexpr (Kind.bonded)
-      return p.own;
+      return p.kept.own;
     else
       return piece == simd::all<V>(p.record[R::piece]) ? V{} + T(1) : V{};
   }
   /// Square of the stretch of bonds that are in use.
   template <class Partner>
   V stretch2(const Partner& p) const {
-    return p.pair.reach() > T(0) ? p.stretch2 : V{};
+    return p.pair.reach() > T(0) ? p.kept.stretch2 : V{};
   }
   Contact<T, V, R, Dim> contact(const T* contacts, double friction) const {
     const auto load = loader();

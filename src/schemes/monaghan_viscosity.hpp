@@ -13,17 +13,18 @@ namespace pair_detail {
 
 /// How fast the strain x.e x that a pair shares closes its gap, where it is what closes it (`along`, v.x): the harmonic
 /// mean of both sides, 0 where one side opens, and fading where it differs by more than `trust` from what happens.
+/// Of either side twice the strain is handed in: the mean is their product over their sum.
 template <class V>
 [[gnu::always_inline]] inline V smooth_closing(V ours, V theirs, V along) {
   using T = kernel_detail::Scalar<V>;
   constexpr T trust = T(0.3), guard = sizeof(T) == sizeof(float) ? T(1e-15) : T(1e-60);
   ours = simd::min(ours, V{});
   theirs = simd::min(theirs, V{});
-  const V twice = T(-2) * ours * theirs, sum = guard - (ours + theirs);  // mean = twice / sum
+  const V product = ours * theirs, sum = (ours + theirs) - guard;  // mean = product / sum <= 0
   const V trusted = trust * simd::magnitude(along) + guard;
   const V quotient = simd::reciprocal(V(sum * trusted));  // one division for both
-  const V off = simd::magnitude(V(twice - along * sum)) * quotient;
-  return twice * trusted * quotient * simd::max(simd::min(V(T(2) - off), V{} + T(1)), V{});
+  const V off = simd::magnitude(V(product - along * sum)) * quotient;  // <= 0
+  return product * trusted * quotient * simd::max(simd::min(V(T(2) + off), V{} + T(1)), V{});
 }
 
 /// The symmetric part of a velocity gradient [1/s], with what is off its diagonal twice.
@@ -49,7 +50,7 @@ struct MonaghanViscosity {
    public:
     static constexpr int factor = 0;                            ///< half of viscosity_factor
     static constexpr int smooth = factor + 1;                   ///< half of 1 - shock_switch, if strained
-    static constexpr int strain = smooth + (Strained ? 1 : 0);  ///< e_xx e_yy 2 e_xy | ..., times length_unit
+    static constexpr int strain = smooth + (Strained ? 1 : 0);  ///< 2 e_xx, 2 e_yy, 4 e_xy | ..., times length_unit
     static constexpr int size = strain + (Strained ? symmetric_size<Dim> : 0);
 
     Record(const Particles<Dim>& particles, const RecordScales& scales)
@@ -64,7 +65,7 @@ struct MonaghanViscosity {
       if constexpr (Strained) {
         places[smooth] = shocked_.count ? static_cast<T>(0.5 * (1 - shocked_(0, i))) : T(0);
         const Symmetric<Dim> rate = pair_detail::rate_of_strain<Dim>(particles_.tensor(Field::velocity_gradient, i));
-        for (int k = 0; k < symmetric_size<Dim>; ++k) places[strain + k] = static_cast<T>(rate[k] * length_unit_);
+        for (int k = 0; k < symmetric_size<Dim>; ++k) places[strain + k] = static_cast<T>(2 * rate[k] * length_unit_);
       }
     }
     template <class T>
@@ -87,6 +88,7 @@ struct MonaghanViscosity {
     template <class Load>
     Lanes(Load&& load, const PairPassSettings& settings)
         : density_(load(R::density)),
+          twice_reference_(T(2) * load(R::reference)),
           sound_speed_(load(R::sound_speed)),
           factor_(load(R::flux + Places::factor)),
           half_alpha_(static_cast<T>(0.5 * settings.viscosity_alpha)),
@@ -110,17 +112,18 @@ struct MonaghanViscosity {
     }
 
     template <class Support, class Partner>
-    [[gnu::always_inline]] PairFlux<V> between(const Support& support, const Partner& p, V closing, V weight) const {
+    [[gnu::always_inline]] PairFlux<V> between(const Support& support, const Partner& p, V closing, V share) const {
       const T* j = p.record;
       const Fraction<V> approach = support.approach(p.pair, p.r2, closing, j);
       const V densities = density_ + j[R::density], quotient = simd::reciprocal(V(approach.under * densities));
       const V mu = approach.over * (densities * quotient);
-      const V mean_density = T(2) * density_ * j[R::density] * (approach.under * quotient);
-      return {weight * mean_density * (mu * (beta_ * mu - half_alpha_ * (sound_speed_ + j[R::sound_speed]))), mu};
+      // r_i r_j rho_ij, with rho_ij the harmonic mean of both
+      const V mean_density = twice_reference_ * j[R::reference] * (approach.under * quotient);
+      return {share * mean_density * (mu * (beta_ * mu - half_alpha_ * (sound_speed_ + j[R::sound_speed]))), mu};
     }
 
    private:
-    V density_, sound_speed_, factor_, smooth_{}, strain_[symmetric_size<Dim>]{};
+    V density_, twice_reference_, sound_speed_, factor_, smooth_{}, strain_[symmetric_size<Dim>]{};
     T half_alpha_, beta_;
   };
 };

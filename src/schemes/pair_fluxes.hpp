@@ -50,7 +50,7 @@ void PairPassOf<T, Dim, Kind, K, Flux>::cluster_slopes(const RateColumns<Dim>& c
   V of_density[Dim] = {}, of_pressure[Dim] = {};
   pair_detail::SquareSum<V, Dim, Kind.asph> squares;
   for_partners<false>(
-      members, support, candidates, R::size, [](const auto&) {},
+      members, support, candidates, R::size, [](const V&) {},
       [&](const Partner& p) __attribute__((always_inline)) {
         const T* j = p.record;
         V dv[Dim], weighted[Dim];
@@ -98,7 +98,8 @@ void PairPassOf<T, Dim, Kind, K, Flux>::cluster_fluxes(const RateColumns<Dim>& c
   simd::WideSum<T> acceleration[Dim], heat, conducted, growth, filled, counted;
   V moment{}, fastest{};
   for_partners<false>(
-      members, support, candidates, R::size, [&](const auto& pair) { moment += pair.moment; },
+      members, support, candidates, R::size, [&](const V& moment_of_one) { moment += moment_of_one; },
+      [](const Partner& p) { return p.reached(); },
       [&](const Partner& p) __attribute__((always_inline)) {
         const T* j = p.record;
         V dv[Dim];
@@ -109,7 +110,7 @@ void PairPassOf<T, Dim, Kind, K, Flux>::cluster_fluxes(const RateColumns<Dim>& c
         const V sweeps = T(0.5) * pair_detail::dot(dv, passes.face) + passes.drift;
         heat.add(-j[R::volume], V(passes.pressure * sweeps));
         if (conducts) [[unlikely]]
-          conducted.add(j[R::mass], flux.conducted(p));
+          conducted.add(R::mass(j), flux.conducted(p));
         if (moves) {
           growth.add(j[R::volume] * j[R::expansion], sweeps);
           // Not the particle itself, which is a partner or not as others of its cluster are near: it is added below.
@@ -119,7 +120,7 @@ void PairPassOf<T, Dim, Kind, K, Flux>::cluster_fluxes(const RateColumns<Dim>& c
           support.value(p.dx, p.r2, own, moment_of_own);
           counted.add(T(1), p.r2 > T(0) ? own : V{});
         }
-        fastest = simd::min(fastest, V(p.pair.moment > 0 ? passes.approach : V{}));
+        fastest = simd::min(fastest, V(p.pair.reach() > 0 ? passes.approach : V{}));
       });
   const double per_unit = 1 / settings_.length_unit, unit_volume = std::pow(settings_.length_unit, Dim);
   const auto shares = pair_detail::density_shares<Dim>(settings_.rules.sizes);
@@ -142,7 +143,7 @@ void PairPassOf<T, Dim, Kind, K, Flux>::cluster_fluxes(const RateColumns<Dim>& c
           2 * per_unit * growth.lane(k);
       const double neighbours =
                        support.norm(k) * (counted.lane(k) + K::value(0.0)) / settings_.godunov->lattice_density,
-                   by_number = neighbours * own[R::mass];
+                   by_number = neighbours * R::mass(own);
       columns.density(0, i) = std::clamp(columns.density(0, i), shares.least * by_number, shares.most * by_number);
     }
     columns.zeroth_moment(0, i) = Support::moment_scale * moment[k];

@@ -81,9 +81,9 @@ class PairPassOf final : public PairPass<Dim> {
   }
   /// Contacts: members or candidates of several pieces. Inlined whatever its size: else the sums of its bodies would
   /// live in memory.
-  template <bool Contacts, class Count, class... Bodies>
+  template <bool Contacts, class Count, class First, class... Then>
   [[gnu::always_inline]] inline void for_partners(const Members& members, const Support& support, Candidates candidates,
-                                                  int values, Count&& count, Bodies&&... bodies) const;
+                                                  int values, Count&& count, First&& first, Then&&... then) const;
   /// The members as others in contact with them see it; nothing without contacts.
   template <bool Contacts>
   auto contact_of(const Members& members) const {
@@ -122,47 +122,45 @@ class PairPassOf final : public PairPass<Dim> {
   Surroundings<Dim> around_;
 };
 
-/// Candidates go in batches through short loops: who is within reach of any lane, and what passes between those, in one
-/// loop for each body. Lists have margins, so many are not; chains of dependent operations overlap better in short
-/// loops; and the sums of each stay in registers. Who is within reach is kept as bits in a register: an address made of
-/// it would hold up the loads that follow, and branches on it would often be guessed wrong.
-/// Calls count(pair) for every candidate and the first body(partner) for those within reach. A body that returns
-/// whether the next one has anything to do there narrows them down. No two bodies add to one sum: how they take turns
-/// depends on how far the lists reach, and so would its rounding.
+/// Calls count(|dW/deta| at eta_i) and first(partner) for every candidate, and then(partner) for those of which `first`
+/// returns true. Beyond the reach of both kernel gradients are exactly 0. No two bodies add to one sum: how they take
+/// turns depends on how far the lists reach, and so would its rounding.
+/// How a candidate is placed takes a chain of dependent operations with a root. The next one is therefore looked at
+/// before the first body takes the one at hand, whose operations fill the time. The second body, whose chain is longer
+/// still, has a short loop of its own. Who is wanted there is kept as bits in a register: an address made of it would
+/// hold up the loads that follow, and branches on it would often be guessed wrong.
 template <class T, int Dim, PassKind Kind, class K, class Flux>
-template <bool Contacts, class Count, class... Bodies>
+template <bool Contacts, class Count, class First, class... Then>
 void PairPassOf<T, Dim, Kind, K, Flux>::for_partners(const Members& members, const Support& support,
-                                                     Candidates candidates, int values, Count&& count,
-                                                     Bodies&&... bodies) const {
-  constexpr std::size_t batch = 32;
-  Partner partners[batch];
-  for (std::size_t begin = 0; begin < candidates.size(); begin += batch) {
-    const std::size_t end = std::min(begin + batch, candidates.size());
-    std::uint64_t reached = 0;
-    for (std::size_t place = begin; place < end; ++place) {
-      prefetch(candidates[std::min(place + batch, candidates.size() - 1)], values);
-      Partner& p = partners[place - begin];
-      p.record = records_.data() + static_cast<std::size_t>(candidates[place]) * R::size;
-      if constexpr (Contacts)
-        p.contact = contacts_.data() + static_cast<std::size_t>(candidates[place]) * R::contact_size;
-      V between[Dim], distance2;  // where the kernel is taken
-      members.template meet<Contacts>(p, between, distance2);
-      p.pair = support.pair(between, distance2, p.record);
-      count(p.pair);
-      reached |= std::uint64_t{simd::any_less(V{}, p.pair.reach())} << (place - begin);
+                                                     Candidates candidates, int values, Count&& count, First&& first,
+                                                     Then&&... then) const {
+  constexpr std::size_t batch = 32, depth = 3;
+  typename Partner::Kept kept[batch];
+  const std::size_t n = candidates.size();
+  const auto look_at = [&](std::size_t place) __attribute__((always_inline)) {
+    prefetch(candidates[std::min(place + batch, n - 1)], values);
+    auto& c = kept[place % batch];
+    c.record = records_.data() + static_cast<std::size_t>(candidates[place]) * R::size;
+    if constexpr (Contacts)
+      c.contact = contacts_.data() + static_cast<std::size_t>(candidates[place]) * R::contact_size;
+    V between[Dim], distance2, moment;  // where the kernel is taken
+    members.template meet<Contacts>(c, between, distance2);
+    c.pair = support.pair(between, distance2, c.record, moment);
+    count(moment);
+  };
+  for (std::size_t begin = 0; begin < n; begin += batch) {
+    const std::size_t in_batch = std::min(batch, n - begin);
+    std::uint64_t wanted = 0;
+    for (std::size_t k = 0; k < std::min(depth, in_batch); ++k) look_at(begin + k);
+    for (std::size_t k = 0; k < in_batch; ++k) {
+      if (k + depth < in_batch) look_at(begin + k + depth);
+      Partner partner(kept[k], members);
+      if constexpr (sizeof...(Then) == 0)
+        first(partner);
+      else
+        wanted |= std::uint64_t{first(partner)} << k;
     }
-    const auto for_each = [&](auto& body) __attribute__((always_inline)) {
-      std::uint64_t wanted = 0;
-      for (std::uint64_t left = reached; left != 0; left &= left - 1) {
-        const int k = std::countr_zero(left);
-        if constexpr (std::is_void_v<decltype(body(partners[k]))>)
-          body(partners[k]);
-        else
-          wanted |= std::uint64_t{body(partners[k])} << k;
-      }
-      reached = wanted;
-    };
-    (for_each(bodies), ...);
+    for (; wanted != 0; wanted &= wanted - 1) (then(Partner(kept[std::countr_zero(wanted)], members)), ...);
   }
 }
 
@@ -240,12 +238,12 @@ void PairPassOf<T, Dim, Kind, K, Flux>::cluster_density(const RateColumns<Dim>& 
   V sum{};
   const bool fills = Flux::whole && columns.filling.count != 0;
   for (const std::uint32_t index : candidates) {
-    Partner p;
+    typename Partner::Kept p;
     p.record = records_.data() + static_cast<std::size_t>(index) * R::size;
     V between[Dim], distance2, w, moment;
     members.template meet<false>(p, between, distance2);
     support.value(between, distance2, w, moment);
-    density.add(Flux::whole ? T(1) : p.record[R::mass], w);
+    density.add(Flux::whole ? T(1) : R::mass(p.record), w);
     if constexpr (Flux::whole)
       if (fills)
         filling.add(p.record[R::volume] * p.record[R::expansion], support.partner_value(between, distance2, p.record));
@@ -256,7 +254,7 @@ void PairPassOf<T, Dim, Kind, K, Flux>::cluster_density(const RateColumns<Dim>& 
     columns.density(0, i) = support.norm(k) * density.lane(k);
     if constexpr (Flux::whole) {
       const double on_lattice = settings_.godunov->lattice_density;
-      columns.density(0, i) *= records_[i * R::size + R::mass] / on_lattice;
+      columns.density(0, i) *= R::mass(records_.data() + i * R::size) / on_lattice;
       if (fills) columns.filling(0, i) = K::template norm<Dim> * filling.lane(k) / on_lattice;
     }
     columns.zeroth_moment(0, i) = static_cast<double>(sum[k]);

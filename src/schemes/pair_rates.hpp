@@ -75,7 +75,11 @@ void PairPassOf<T, Dim, Kind, K, Flux>::cluster_rates(const RateColumns<Dim>& co
     } else if constexpr (!R::split) {  // else the work is not needed
       sums.divergence += pair_detail::dot(dv, weighted);
     }
-    return !apart || !Flux::closing_only || (Contacts && p.foreign) || simd::any_less(p.along, V{});  // to forces
+    // Whether forces() has anything to do.
+    if constexpr (!apart || !Flux::closing_only) return p.reached();
+    if constexpr (Contacts)
+      if (p.foreign) return p.reached();
+    return (p.lanes_reached() & simd::lanes_less(p.along, V{})) != 0;
   };
   const auto forces = [&](const Partner& p) __attribute__((always_inline)) {
     const T* j = p.record;
@@ -92,8 +96,8 @@ void PairPassOf<T, Dim, Kind, K, Flux>::cluster_rates(const RateColumns<Dim>& co
         jump.closing = own > T(0) ? jump.closing : contact.closing(p, dv, along);
         jump.share = own > T(0) ? jump.share : V(contact.weight(p, own) * contact.softness(p));
       }
-    const auto exchange = flux.between(support, p, jump.closing, V(jump.share * (expansion * j[R::expansion])));
-    sums.fastest = simd::min(sums.fastest, V(p.pair.moment > 0 ? exchange.approach : V{}));
+    const auto exchange = flux.between(support, p, jump.closing, jump.share);
+    sums.fastest = simd::min(sums.fastest, V(p.pair.reach() > 0 ? exchange.approach : V{}));
     if constexpr (Flux::uneven) sums.heat.add(volume, exchange.uneven);
     if constexpr (apart)
       if (!Contacts || !p.foreign) {
@@ -104,9 +108,10 @@ void PairPassOf<T, Dim, Kind, K, Flux>::cluster_rates(const RateColumns<Dim>& co
       }
     // With corrected gradients no torque is left but that of a flux off the pair's axis. Elsewhere that of smoothing
     // tensors follows their gradient: across shocks it is the better one.
-    const V pressure = along_gradient ? exchange.pressure : V{};
-    // In single precision always: both sides of a pair must round alike, whatever else is in their clusters.
-    if (R::split || (Contacts && p.foreign) || !alike.with(j)) {
+    const V pressure = along_gradient ? simd::rounded(exchange.pressure) : V{};
+    // Where densities are alike shares are 1 to the bit. Seen from j everything must be the same number, whichever way
+    // its cluster takes: products are rounded before the sum, as in the kernels.
+    if ((Contacts && p.foreign) || !alike.with(j)) {
       const Shares shares(alike.limit, expansion, compression, j[R::expansion], j[R::compression]);
       V ours[R::stresses], theirs[R::stresses];
       for (int s = 0; s < R::stresses; ++s) {
@@ -122,7 +127,6 @@ void PairPassOf<T, Dim, Kind, K, Flux>::cluster_rates(const RateColumns<Dim>& co
             theirs[s] = own > T(0) ? theirs[s] : V(other_share * p.contact[R::press + s]);
           }
         }
-      // Rounded before the sum, as in the kernels: seen from j it must be the same number.
       for (int s = 0; s < R::stresses; ++s) {
         ours[s] = simd::rounded(ours[s]);
         theirs[s] = simd::rounded(theirs[s]);
@@ -132,6 +136,8 @@ void PairPassOf<T, Dim, Kind, K, Flux>::cluster_rates(const RateColumns<Dim>& co
         pair_detail::contract<Kind.stress, Dim, -1>(ours, theirs, pressure, kernel_gradient, uneven);
     } else {
       pair_detail::contract<Kind.stress, Dim>(stress, j + R::stress, pressure, kernel_gradient, force);
+      if constexpr (R::split)
+        pair_detail::contract<Kind.stress, Dim, -1>(stress, j + R::stress, pressure, kernel_gradient, uneven);
     }
     if constexpr (!along_gradient)
       for (int a = 0; a < Dim; ++a) force[a] -= exchange.pressure * (central * p.dx[a]);
@@ -154,7 +160,7 @@ void PairPassOf<T, Dim, Kind, K, Flux>::cluster_rates(const RateColumns<Dim>& co
     for (int a = 0; a < Dim; ++a) sums.acceleration[a].add(volume, force[a]);
   };
   for_partners<Contacts>(
-      members, support, candidates, R::size, [&](const auto& pair) { sums.moment += pair.moment; }, gradients, forces);
+      members, support, candidates, R::size, [&](const V& moment) { sums.moment += moment; }, gradients, forces);
   if constexpr (apart)
     for (int a = 0; a < Dim; ++a) {
       for (int b = 0; b < Dim; ++b) sums.pull[a] += stress[a * Dim + b] * sums.gradients[b];

@@ -66,12 +66,13 @@ struct PairRecord {
   static constexpr int v = bond + (Kind.bonded ? 1 : 0);                     ///< velocity
   static constexpr int density = v + Dim;                                    ///< rho
   static constexpr int sound_speed = density + 1;
-  static constexpr int mass = sound_speed + 1;
-  static constexpr int stress = mass + 1;           ///< r^2 T (gradient_correction.hpp), or -r^2 P alone [Pa]
+  static constexpr int reference = sound_speed + 1;  ///< rho0
+  static constexpr int stress = reference + 1;           ///< r^2 T (gradient_correction.hpp), or -r^2 P alone [Pa]
   static constexpr int damage = stress + stresses;  ///< damage tensor, if cracked
   static constexpr int flux = damage + (Kind.cracked ? symmetric_size<Dim> : 0);
   using FluxRecord = typename Flux::template Record<Dim, Kind.strained>;
   static constexpr int size = flux + FluxRecord::size;
+  static T mass(const T* record) { return record[volume] * record[reference]; }  ///< per length_unit^Dim
 
   // A record of its own, for pieces in contact only.
   static constexpr int contact = 0;           ///< how far in contact with other pieces, 0 to 1

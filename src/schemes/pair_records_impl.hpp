@@ -157,7 +157,7 @@ class Filler {
     r[R::compression] = static_cast<T>(density_[i] / reference);
     r[R::density] = static_cast<T>(density_[i]);
     r[R::sound_speed] = static_cast<T>(sound_speed_[i]);
-    r[R::mass] = static_cast<T>(mass_[i] * power(to_unit_));
+    r[R::reference] = static_cast<T>(reference);
     if constexpr (Kind.stress)
       r[R::piece] = rules_.pieces.empty() ? T(0) : static_cast<T>(rules_.pieces[static_cast<std::size_t>(body_[i])]);
     if constexpr (Kind.bonded) {

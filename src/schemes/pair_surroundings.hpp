@@ -25,9 +25,9 @@ void PairPassOf<T, Dim, Kind, K, Flux>::find_contacts(std::size_t cluster, const
   const Support support{members.loader()};
   V outward[Dim] = {}, occupied{};
   for_partners<true>(
-      members, support, candidates, R::v, [](const auto&) {},
+      members, support, candidates, R::v, [](const V&) {},
       [&](const Partner& p) __attribute__((always_inline)) {
-        if (!p.foreign) return;
+        if (!p.foreign || !p.reached()) return;
         in_contact_[cluster] = 1;  // by who is within reach alone: how far lists reach must not change how sums round
         V gradient[Dim], w, unused;
         const V volume = p.record[R::volume] * p.record[R::expansion] * (T(1) - members.own(p));
@@ -59,27 +59,23 @@ void PairPassOf<T, Dim, Kind, K, Flux>::sum_moments(const RateColumns<Dim>& colu
   pair_detail::SquareSum<V, Dim, Kind.asph> squares, squares_of_others;
   V stretch2 = V{} + T(1);
   for_partners<Contacts>(
-      members, support, candidates, R::v, [](const auto&) {},
+      members, support, candidates, R::v, [](const V&) {},
       [&](const Partner& p) __attribute__((always_inline)) {
-        V gradient[Dim], weighted[Dim];  // times V0_j; times the weight of j
-        p.kernel_gradient(gradient, p.record[R::volume]);
-        for (int b = 0; b < Dim; ++b) weighted[b] = gradient[b];
-        if (!alike.with(p.record)) {
-          const Shares shares(alike.limit, expansion, compression, p.record[R::expansion], p.record[R::compression]);
-          for (V& component : weighted) component *= shares.own;
-        }
+        const T volume = p.record[R::volume];
+        V weight = simd::all<V>(volume), weighted[Dim];
+        if (!alike.with(p.record))
+          weight *= Shares(alike.limit, expansion, compression, p.record[R::expansion], p.record[R::compression]).own;
         if constexpr (Contacts)
           if (p.foreign) {
             const V own = members.own(p);
             V others[Dim], own_share, other_share;
             contact.shares(p, own, own_share, other_share);
-            for (int b = 0; b < Dim; ++b) {
-              others[b] = own_share * gradient[b];
-              weighted[b] *= own;
-            }
+            p.kernel_gradient(others, V(own_share * volume));
             contact_moment.add(p.dx, others);
             squares_of_others.add(others);
+            weight *= own;
           }
+        p.kernel_gradient(weighted, weight);
         moment.add(p.dx, weighted);
         squares.add(weighted);
         if constexpr (Kind.bonded) stretch2 = simd::max(stretch2, members.stretch2(p));

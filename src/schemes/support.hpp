@@ -31,11 +31,11 @@ struct IsotropicSupport {
       : h(load(R::h)), reach_reciprocal(load(R::reach_reciprocal)), slope_norm(load(R::slope_norm)) {}
 
   struct Pair {
-    V slope;   ///< grad_i W_ij = slope (x_j - x_i); 0 exactly where neither reaches the other
-    V moment;  ///< |dW/deta| at eta_i = r/h_i, over moment_scale
+    V slope;  ///< grad_i W_ij = slope (x_j - x_i); 0 exactly where neither reaches the other
     /// > 0 exactly where one reaches the other.
     V reach() const { return slope; }
-    void gradient(const V (&dx)[Dim], S factor, V (&g)[Dim]) const {
+    template <class Factor>
+    void gradient(const V (&dx)[Dim], Factor factor, V (&g)[Dim]) const {
       const V scaled = factor * slope;
       for (int a = 0; a < Dim; ++a) g[a] = scaled * dx[a];
     }
@@ -43,8 +43,8 @@ struct IsotropicSupport {
     V central(const V (&)[Dim], V) const { return slope; }
   };
 
-  /// r2 = |x_j - x_i|^2; `j` is the record of the partner.
-  Pair pair(const V (&)[Dim], V r2, const S* j) const {
+  /// r2 = |x_j - x_i|^2; `j` is the record of the partner; moment: |dW/deta| at eta_i = r/h_i, over moment_scale.
+  Pair pair(const V (&)[Dim], V r2, const S* j, V& moment) const {
     const V r = simd::square_root(V(K::reduced_over_r ? V(r2 + support_detail::guard<S>) : r2));
     const V a_i = kernel_detail::positive(V(S(1) - r * reach_reciprocal)),
             a_j = kernel_detail::positive(V(S(1) - r * j[R::reach_reciprocal]));
@@ -53,10 +53,11 @@ struct IsotropicSupport {
     V slope = simd::rounded(V(slope_i * slope_norm)) + simd::rounded(V(slope_j * j[R::slope_norm]));
     if constexpr (K::reduced_over_r) {
       slope /= r;
-      return {slope, slope_i};
+      moment = slope_i;
     } else {
-      return {slope, slope_i - a_i * slope_i};  // q = support (1 - a)
+      moment = slope_i - a_i * slope_i;  // q = support (1 - a)
     }
+    return {slope};
   }
   static constexpr double moment_scale = K::reduced_scale * (K::reduced_over_r ? 1 : K::support);
 
@@ -103,11 +104,11 @@ struct EllipsoidalSupport {
 
   struct Pair {
     V along[Dim];  ///< grad_i W_ij
-    V moment;      ///< |dW/deta| at eta_i = |H_i x|, without the norm of the kernel, over moment_scale
     V weight;      ///< > 0 exactly where one reaches the other
     V mean_eta;
     V reach() const { return weight; }
-    void gradient(const V (&)[Dim], S factor, V (&g)[Dim]) const {
+    template <class Factor>
+    void gradient(const V (&)[Dim], Factor factor, V (&g)[Dim]) const {
       for (int a = 0; a < Dim; ++a) g[a] = factor * along[a];
     }
     /// What the gradient is along the pair, central(...) (x_j - x_i): x.G x > 0 keeps its sign.
@@ -118,7 +119,8 @@ struct EllipsoidalSupport {
     }
   };
 
-  Pair pair(const V (&dx)[Dim], V, const S* j) const {
+  /// As above, with eta_i = |H_i x| and without the norm of the kernel.
+  Pair pair(const V (&dx)[Dim], V, const S* j, V& moment) const {
     V image_i[Dim], image_j[Dim];  // G x
     const V eta2_i = quadratic_form<Dim>(metric, dx, image_i), eta2_j = quadratic_form<Dim>(j + R::metric, dx, image_j);
     const V q_i = eta_of(eta2_i), q_j = eta_of(eta2_j);
@@ -129,7 +131,7 @@ struct EllipsoidalSupport {
     // As above: products are rounded before the sum.
     for (int a = 0; a < Dim; ++a)
       p.along[a] = half * (simd::rounded(V(weight_i * image_i[a])) + simd::rounded(V(weight_j * image_j[a])));
-    p.moment = q_i * slope_i;
+    moment = q_i * slope_i;
     p.weight = weight_i + weight_j;
     p.mean_eta = S(0.5) * (q_i + q_j);
     return p;

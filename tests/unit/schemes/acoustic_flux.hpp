@@ -46,7 +46,7 @@ struct AcousticFlux {
     Jump<V> jump(const V (&)[Dim], V along, const T*) const { return {along, V{} + T(1)}; }
 
     template <class Support, class Partner>
-    UnevenPairFlux<V> between(const Support&, const Partner& p, V closing, V weight) const {
+    UnevenPairFlux<V> between(const Support&, const Partner& p, V closing, V share) const {
       const T* j = p.record;
       const T p_j = j[R::flux], Z_j = j[R::density] * j[R::sound_speed], r_j = j[R::expansion];
       const V per_r = T(1) / simd::square_root(V(p.r2 + T(1e-20))), jump = closing * per_r, Z = impedance_ + Z_j;
@@ -54,7 +54,7 @@ struct AcousticFlux {
       const V left = simd::rounded(V(Z_j * pressure_)), right = simd::rounded(V(impedance_ * p_j));
       const V star = (left + right - simd::rounded(V(impedance_ * Z_j)) * jump) / Z;
       UnevenPairFlux<V> flux;
-      flux.pressure = weight * (T(2) * star - (pressure_ + p_j));
+      flux.pressure = share * (expansion_ * r_j) * (T(2) * star - (pressure_ + p_j));
       flux.approach = simd::min(jump, V{});
       // Along the pair: F.e, and u* beyond the mean of both velocities.
       V g[Dim], across{};
