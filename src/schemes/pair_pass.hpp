@@ -87,7 +87,8 @@ class PairPass {
   /// adds min(mu p, Z |v_t|) against the sliding velocity v_t, p the force across the contact.
   ///
   /// Bonded, particles that hold on to their first neighbours (bond = 1) take W and its gradient at the places of the
-  /// start: nothing clumps under tension [Belytschko et al. 2000], and M^-1 brings the deformation in. Bonded particles
+  /// start: nothing clumps under tension [Belytschko et al. 2000], and M^-1 brings the deformation in. The pressure p_ij
+  /// of hourglass.hpp acts between them as q does, along the pair. Bonded particles
   /// of one piece that were further apart than twice the support meet like strangers.
   ///
   /// Cracked, S is what cracks let through (cracked_stress.hpp), and uncut_gradient is the velocity gradient summed

@@ -8,6 +8,7 @@
 #include "base/parallel.hpp"
 #include "schemes/contact.hpp"
 #include "schemes/gradient_correction.hpp"
+#include "schemes/hourglass.hpp"
 #include "schemes/lane_algebra.hpp"
 #include "schemes/members.hpp"
 #include "schemes/pair_pass.hpp"
@@ -96,6 +97,7 @@ class PairPassOf final : public PairPass<Dim> {
   void rates_by_flux(Particles<Dim>& particles, const PairLists<Dim>& lists);
   bool several_pieces(const Cluster& c, Candidates candidates) const;
   void find_contacts(std::size_t cluster, const PairLists<Dim>& lists);
+  void set_deformation(std::size_t i, const Mat<Dim>& moment, const Mat<Dim>& at_the_start, double least);
   template <bool Contacts>
   void sum_moments(const RateColumns<Dim>& columns, const Cluster& c, Candidates candidates);
   template <bool Contacts>

@@ -20,6 +20,7 @@ void PairPassOf<T, Dim, Kind, K, Flux>::cluster_rates(const RateColumns<Dim>& co
     for (int s = 0; s < symmetric_size<Dim>; ++s) damage[s] = load(R::damage + s);
   }
   const FluxLanes flux(load, settings_);
+  [[maybe_unused]] const auto hourglass = pair_detail::hourglass_of<Kind.bonded, T, V, R, Dim>(load);
   const V expansion = load(R::expansion), compression = load(R::compression);
   const Alike alike(settings_.alike, expansion, compression);
   [[maybe_unused]] const auto contact = contact_of<Contacts>(members);
@@ -76,7 +77,7 @@ void PairPassOf<T, Dim, Kind, K, Flux>::cluster_rates(const RateColumns<Dim>& co
       sums.divergence += pair_detail::dot(dv, weighted);
     }
     // Whether forces() has anything to do.
-    if constexpr (!apart || !Flux::closing_only) return p.reached();
+    if constexpr (!apart || !Flux::closing_only || Kind.bonded) return p.reached();
     if constexpr (Contacts)
       if (p.foreign) return p.reached();
     return (p.lanes_reached() & simd::lanes_less(p.along, V{})) != 0;
@@ -96,7 +97,8 @@ void PairPassOf<T, Dim, Kind, K, Flux>::cluster_rates(const RateColumns<Dim>& co
         jump.closing = own > T(0) ? jump.closing : contact.closing(p, dv, along);
         jump.share = own > T(0) ? jump.share : V(contact.weight(p, own) * contact.softness(p));
       }
-    const auto exchange = flux.between(support, p, jump.closing, jump.share);
+    auto exchange = flux.between(support, p, jump.closing, jump.share);
+    if constexpr (Kind.bonded) exchange.pressure += hourglass.pressure(p);
     sums.fastest = simd::min(sums.fastest, V(p.pair.reach() > 0 ? exchange.approach : V{}));
     if constexpr (Flux::uneven) sums.heat.add(volume, exchange.uneven);
     if constexpr (apart)

@@ -166,6 +166,7 @@ class Filler {
         set_position<T, R>(r, R::place + axis, R::place_low + axis, start_(a, i) * to_unit_);
       }
       r[R::bond] = static_cast<T>(bond_(0, i) * scales_.support * h_[i] * to_unit_);
+      std::fill_n(r + R::deformation, Dim * Dim + 1, T(0));  // nobody knows it of guests
     }
     if constexpr (Kind.cracked) {
       const Symmetric<Dim> cracks = cracks_of(particles_, damage_, rules_, i);
@@ -287,7 +288,8 @@ void PairRecord<T, Dim, Kind, Flux>::pack_stress(const Particles<Dim>& particles
     T* r = records.data() + (n + k) * size + stress;
     T* t = contacts.empty() ? nullptr : contacts.data() + (n + k) * contact_size + press;
     if (ghost.owner == 0) {
-      std::copy_n(records.data() + ghost.source * size + stress, stresses, r);
+      // With the deformation, if bonded.
+      std::copy_n(records.data() + ghost.source * size + stress, damage - stress, r);
       if (t) std::copy_n(contacts.data() + ghost.source * contact_size + press, stresses, t);
     } else {
       fill(guests[ghost.owner - 1u], ghost.source, n + k, [](const Mat<Dim>& sigma) {
@@ -298,6 +300,7 @@ void PairRecord<T, Dim, Kind, Flux>::pack_stress(const Particles<Dim>& particles
       for (int a = 0; a < Dim; ++a) {
         if (!ghosts.transform(ghost).mirrors(a)) continue;
         record_detail::mirror_tensor<Dim>(r, a);
+        if constexpr (Kind.bonded) record_detail::mirror_tensor<Dim>(r + deformation - stress, a);
         if (t) record_detail::mirror_tensor<Dim>(t, a);
       }
   }

@@ -43,6 +43,19 @@ void PairPassOf<T, Dim, Kind, K, Flux>::find_contacts(std::size_t cluster, const
   }
 }
 
+/// F of a bonded particle and half of k (hourglass.hpp); 0 where its neighbours are too few to tell.
+template <class T, int Dim, PassKind Kind, class K, class Flux>
+void PairPassOf<T, Dim, Kind, K, Flux>::set_deformation(std::size_t i, const Mat<Dim>& moment,
+                                                        const Mat<Dim>& at_the_start, double least) {
+  const auto correction = gradient_correction<Dim>(at_the_start, least);
+  if (!correction.whole) return;
+  const Mat<Dim> F = moment * correction.Q.transpose();
+  T* r = records_.data() + i * R::size;
+  for (int a = 0; a < Dim; ++a)
+    for (int b = 0; b < Dim; ++b) r[R::deformation + a * Dim + b] = static_cast<T>(F(a, b));
+  r[R::stiffness] = static_cast<T>(0.5 * hourglass_stiffness) * r[R::density] * r[R::sound_speed] * r[R::sound_speed];
+}
+
 /// Moment matrices, and the stretch of bonds.
 template <class T, int Dim, PassKind Kind, class K, class Flux>
 template <bool Contacts>
@@ -55,7 +68,7 @@ void PairPassOf<T, Dim, Kind, K, Flux>::sum_moments(const RateColumns<Dim>& colu
   const Alike alike(settings_.alike, expansion, compression);
   constexpr bool along = !Kind.asph && !Kind.bonded;  // the gradient is along the pair
   std::conditional_t<along, pair_detail::SymmetricSum<V, Dim>, TensorSum> moment;
-  [[maybe_unused]] TensorSum contact_moment;
+  [[maybe_unused]] TensorSum contact_moment, start_moment;
   pair_detail::SquareSum<V, Dim, Kind.asph> squares, squares_of_others;
   V stretch2 = V{} + T(1);
   for_partners<Contacts>(
@@ -78,7 +91,10 @@ void PairPassOf<T, Dim, Kind, K, Flux>::sum_moments(const RateColumns<Dim>& colu
         p.kernel_gradient(weighted, weight);
         moment.add(p.dx, weighted);
         squares.add(weighted);
-        if constexpr (Kind.bonded) stretch2 = simd::max(stretch2, members.stretch2(p));
+        if constexpr (Kind.bonded) {
+          start_moment.add(p.kept.between, weighted);
+          stretch2 = simd::max(stretch2, members.stretch2(p));
+        }
       });
   for (std::size_t i = c.begin; i < c.end; ++i) {
     const int k = static_cast<int>(i - c.begin);
@@ -92,7 +108,10 @@ void PairPassOf<T, Dim, Kind, K, Flux>::sum_moments(const RateColumns<Dim>& colu
       sums.contact = expansion * contact_moment.of_lane(k);
       sums.least_of_all = least_stretch(std::sqrt(own_squares + squared * squares_of_others.of_lane(k, scale)));
     }
-    if constexpr (Kind.bonded) columns.stretch(0, i) = std::sqrt(static_cast<double>(stretch2[k]));
+    if constexpr (Kind.bonded) {
+      columns.stretch(0, i) = std::sqrt(static_cast<double>(stretch2[k]));
+      set_deformation(i, sums.moment, expansion * start_moment.of_lane(k), sums.least);
+    }
   }
 }
 

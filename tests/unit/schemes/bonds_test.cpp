@@ -96,16 +96,50 @@ TEST(Bonds, RatesAreTheFormulasAlsoWhereSomeHaveNone) {
     }
 }
 
+/// No stress, and no velocity.
+template <int Dim>
+Particles<Dim> relaxed(const Mat<Dim>& F, bool asph) {
+  auto p = deformed<Dim>(F, Mat<Dim>::Zero(), asph);
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    p.column(Field::pressure)[i] = 0;
+    for (int k = 0; k < deviator_size<Dim>; ++k) p.column(Field::deviatoric_stress, k)[i] = 0;
+  }
+  return p;
+}
+
+TEST(Bonds, AnAlternatingPatternIsPushedBackAndAUniformDeformationIsNot) {
+  for (const bool asph : {false, true}) {
+    const auto settings = bonded_settings(Precision::double_precision, asph);
+    Mat<2> F;
+    F << 0.4, -1.2, 0.9, 0.3;
+    auto uniform = relaxed<2>(F, asph), pattern = uniform;
+    const auto away = [&](std::size_t i) -> Vec<2> {  // from where F takes it: every other column up, the rest down
+      const Vec<2> start = pattern.vector(Field::start_position, i);
+      return Vec<2>(0, std::lround(start[0] / spacing) % 2 == 0 ? 0.1 : -0.1) * spacing;
+    };
+    for (std::size_t i = 0; i < pattern.size(); ++i)
+      pattern.set_vector(Field::position, i, pattern.vector(Field::position, i) + away(i));
+    run_rates(uniform, settings);
+    run_rates(pattern, settings);
+    double work = 0, scale = 0;
+    for (std::size_t i = 0; i < pattern.size(); ++i) {
+      const double c = pattern.column(Field::sound_speed)[i], stiff = hourglass_stiffness * c * c / spacing;
+      EXPECT_LT(uniform.vector(Field::acceleration, i).norm(), 1e-11 * stiff);
+      const double m = pattern.column(Field::mass)[i];
+      work += m * pattern.vector(Field::acceleration, i).dot(away(i));
+      scale += m * stiff * away(i).norm();
+    }
+    EXPECT_LT(work, -0.02 * scale);
+  }
+}
+
 TEST(Bonds, ViscosityTakesEnergyFromMotionAlsoAfterATurn) {
   for (const bool asph : {false, true})
     for (const double angle : {0.0, 1.0, 2.0, 3.1}) {
       auto settings = bonded_settings(Precision::double_precision, asph);
       const Mat<2> turn = Eigen::Rotation2Dd(angle).toRotationMatrix();
-      auto p = deformed<2>(turn, Mat<2>(-1e4 * Mat<2>::Identity()), asph);
-      for (std::size_t i = 0; i < p.size(); ++i) {  // no stress: all that is left is viscosity
-        p.column(Field::pressure)[i] = 0;
-        for (int k = 0; k < 3; ++k) p.column(Field::deviatoric_stress, k)[i] = 0;
-      }
+      auto p = relaxed<2>(turn, asph);  // no stress: all that is left is viscosity
+      for (std::size_t i = 0; i < p.size(); ++i) p.set_vector(Field::velocity, i, -1e4 * p.vector(Field::position, i));
       run_rates(p, settings);
       for (std::size_t i = 0; i < p.size(); ++i)
         EXPECT_GT(p.column(Field::specific_energy_rate)[i], 0) << "asph " << asph << ", turned by " << angle;

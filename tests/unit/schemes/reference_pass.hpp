@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "schemes/cracked_stress.hpp"
+#include "schemes/hourglass.hpp"
 #include "schemes/kernels.hpp"
 #include "unit/schemes/random_matter.hpp"
 
@@ -120,14 +121,15 @@ class Reference {
       const double viscosity =
           f * mean_rho * (-settings_.viscosity_alpha * 0.5 * (c + c_j) * mu + settings_.viscosity_beta * mu * mu);
       const Vec<Dim> drag = viscosity * (settings_.stress ? Vec<Dim>(q.central * q.x) : q.g);
+      const Vec<Dim> spring = hourglass(own, other, q) * q.central / (own.r * other.r) * q.x;
       if (q.eta_i < kernel_.support || q.eta_j < kernel_.support) sums.approach = std::max(sums.approach, -mu);
 
       // V_i w_ij and V_j w_ji, relative to V_i V_j.
       const double ours_share = weight(i, j) / other.V, theirs_share = weight(j, i) / own.V;
       const Mat<Dim> ours = q.own ? Mat<Dim>(ours_share * own.own) : Mat<Dim>(share(i, j) * own.press),
                      theirs = q.own ? Mat<Dim>(theirs_share * other.own) : Mat<Dim>(share(j, i) * other.press);
-      Vec<Dim> force = (ours + theirs) * q.g - drag;
-      double heat = q.v.dot(ours * q.g) - 0.5 * q.v.dot(drag);
+      Vec<Dim> force = (ours + theirs) * q.g - drag - spring;
+      double heat = q.v.dot(ours * q.g) - 0.5 * q.v.dot(drag + spring);
       if (!q.own && settings_.friction > 0 && n.norm() > 0) {
         n.normalize();
         // A wall rests: the image of what slides to the right slides to the left.
@@ -144,8 +146,8 @@ class Reference {
       sums.acceleration += other.V / rho * force;
       sums.heating += other.V / rho * heat;
       const double gradient_weight = q.own ? weight(i, j) : other.V, strain = other.V * q.v.norm() * q.g.norm();
-      sums.acceleration_scale += other.V / rho * ((ours.norm() + theirs.norm()) * q.g.norm() + drag.norm());
-      sums.heating_scale += (ours.norm() + theirs.norm()) / rho * strain + other.V / rho * drag.norm() * q.v.norm();
+      sums.acceleration_scale += other.V / rho * ((ours.norm() + theirs.norm()) * q.g.norm() + drag.norm() + spring.norm());
+      sums.heating_scale += (ours.norm() + theirs.norm()) / rho * strain + other.V / rho * (drag + spring).norm() * q.v.norm();
       sums.gradient_scale += gradient_weight * q.v.norm() * q.g.norm();
 
       const Mat<Dim> add = gradient_weight * q.v * q.g.transpose(),
@@ -186,12 +188,14 @@ class Reference {
     Vec<Dim> normal = Vec<Dim>::Zero();
     double squares = 0, squares_of_others = 0;
     double V, r, Z, contact = 0;  ///< r: rho0/rho
+    Mat<Dim> F = Mat<Dim>::Zero();
+    double k = 0;  ///< of the springs of its bonds
     int piece = 0;
   };
   struct Pair {
-    Vec<Dim> x, v, g;  ///< x_j - x_i, v_j - v_i, grad_i W
+    Vec<Dim> x, v, g, X;  ///< x_j - x_i, v_j - v_i, grad_i W, x_j - x_i at the start
     double r, central, eta_i, eta_j, eta, stretch;
-    bool own;
+    bool own, bonded = false;
   };
 
   double column(Field f, std::size_t i) const { return p_.column(f)[i]; }
@@ -216,7 +220,9 @@ class Reference {
       q.own =
           start.norm() <= kernel_.support * (column(Field::smoothing_length, i) + column(Field::smoothing_length, j));
       if (q.own) y = start;
+      q.bonded = q.own;
     }
+    q.X = y;
 
     q.g = 0.5 * (one_sided(i, y, q.eta_i) + one_sided(j, y, q.eta_j));
     q.eta = 0.5 * (q.eta_i + q.eta_j);
@@ -263,6 +269,7 @@ class Reference {
         const Vec<Dim> scaled = (q.own ? weight(i, j) : share(i, j) * views_[j].V) * view.H.inverse() * q.g;
         (q.own ? view.squares : view.squares_of_others) += scaled.squaredNorm();
       }
+      if (settings_.bonded) deform(i);
       const Mat<Dim> sigma = stress_of(p_, settings_.cracked, i);
       const Inverse<Dim> own = inverse(view.moment, view.squares),
                          both = inverse(view.moment + view.others, view.squares + view.squares_of_others);
@@ -275,6 +282,24 @@ class Reference {
       view.own = sign.asDiagonal() * of.own * sign.asDiagonal();
       view.press = sign.asDiagonal() * of.press * sign.asDiagonal();
     });
+  }
+  /// What a bonded particle takes for its deformation since the start.
+  void deform(std::size_t i) {
+    View& view = views_[i];
+    Mat<Dim> at_the_start = Mat<Dim>::Zero();
+    for (std::size_t j = 0; j < p_.size(); ++j) {
+      const Pair q = pair(i, j);
+      if (q.own) at_the_start += weight(i, j) * q.X * q.g.transpose();
+    }
+    const Inverse<Dim> start = Inverse<Dim>::of(at_the_start, view.squares);
+    if (!start.P.isIdentity(1e-12)) return;
+    view.F = view.moment * at_the_start.inverse();
+    view.k = hourglass_stiffness * view.Z * view.Z / column(Field::density, i);
+  }
+  /// Pressure of the springs of hourglass.hpp.
+  static double hourglass(const View& i, const View& j, const Pair& q) {
+    const auto one = [&](const View& view) { return view.k * (q.x.dot(view.F * q.X) / (q.r * q.r) - 1); };
+    return q.bonded ? 0.5 * (one(i) + one(j)) : 0;
   }
   template <class Take>
   void from_sources(Take&& take) {
