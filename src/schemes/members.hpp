@@ -50,6 +50,13 @@ struct Partner {
   /// Bit k: lane k reaches the partner, or the partner lane k.
   unsigned lanes_reached() const { return simd::lanes_less(V{}, pair.reach()); }
   bool reached() const { return lanes_reached() != 0; }
+  /// Square of the separation at which the kernel is taken.
+  V distance2() const {
+    if constexpr (Kind.bonded)
+      return dot(kept.between, kept.between);
+    else
+      return r2;
+  }
   /// What the kernel gradient is along the pair, over its length; of a bond along itself, which may have turned since.
   V central() const {
     if constexpr (Kind.bonded)

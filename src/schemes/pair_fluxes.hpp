@@ -114,13 +114,11 @@ void PairPassOf<T, Dim, Kind, K, Flux>::cluster_fluxes(const RateColumns<Dim>& c
         if (moves) {
           growth.add(j[R::volume] * j[R::expansion], sweeps);
           // Not the particle itself, which is a partner or not as others of its cluster are near: it is added below.
-          const V others = p.r2 > T(0) ? support.partner_value(p.dx, p.r2, j) : V{};
-          filled.add(j[R::volume] * j[R::expansion], others);
-          V own, moment_of_own;
-          support.value(p.dx, p.r2, own, moment_of_own);
-          counted.add(T(1), p.r2 > T(0) ? own : V{});
+          const KernelValues<V> values = support.values(p.dx, p.r2, j);
+          filled.add(j[R::volume] * j[R::expansion], p.r2 > T(0) ? values.others : V{});
+          counted.add(T(1), p.r2 > T(0) ? values.own : V{});
         }
-        fastest = simd::min(fastest, V(p.pair.reach() > 0 ? passes.approach : V{}));
+        fastest = simd::min(fastest, support.within(p.pair, p.r2, passes.approach));
       });
   const double per_unit = 1 / settings_.length_unit, unit_volume = std::pow(settings_.length_unit, Dim);
   const auto shares = pair_detail::density_shares<Dim>(settings_.rules.sizes);

@@ -242,14 +242,14 @@ void PairPassOf<T, Dim, Kind, K, Flux>::cluster_density(const RateColumns<Dim>& 
   for (const std::uint32_t index : candidates) {
     typename Partner::Kept p;
     p.record = records_.data() + static_cast<std::size_t>(index) * R::size;
-    V between[Dim], distance2, w, moment;
+    V between[Dim], distance2;
     members.template meet<false>(p, between, distance2);
-    support.value(between, distance2, w, moment);
-    density.add(Flux::whole ? T(1) : R::mass(p.record), w);
+    const KernelValues<V> values = support.values(between, distance2, p.record);
+    density.add(Flux::whole ? T(1) : R::mass(p.record), values.own);
     if constexpr (Flux::whole)
       if (fills)
-        filling.add(p.record[R::volume] * p.record[R::expansion], support.partner_value(between, distance2, p.record));
-    sum += moment;
+        filling.add(p.record[R::volume] * p.record[R::expansion], values.others);
+    sum += values.moment;
   }
   for (std::size_t i = c.begin; i < c.end; ++i) {
     const int k = static_cast<int>(i - c.begin);

@@ -99,7 +99,7 @@ void PairPassOf<T, Dim, Kind, K, Flux>::cluster_rates(const RateColumns<Dim>& co
       }
     auto exchange = flux.between(support, p, jump.closing, jump.share);
     if constexpr (Kind.bonded) exchange.pressure += hourglass.pressure(p);
-    sums.fastest = simd::min(sums.fastest, V(p.pair.reach() > 0 ? exchange.approach : V{}));
+    sums.fastest = simd::min(sums.fastest, support.within(p.pair, p.distance2(), exchange.approach));
     if constexpr (Flux::uneven) sums.heat.add(volume, exchange.uneven);
     if constexpr (apart)
       if (!Contacts || !p.foreign) {

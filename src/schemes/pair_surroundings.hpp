@@ -29,12 +29,11 @@ void PairPassOf<T, Dim, Kind, K, Flux>::find_contacts(std::size_t cluster, const
       [&](const Partner& p) __attribute__((always_inline)) {
         if (!p.foreign || !p.reached()) return;
         in_contact_[cluster] = 1;  // by who is within reach alone: how far lists reach must not change how sums round
-        V gradient[Dim], w, unused;
+        V gradient[Dim];
         const V volume = p.record[R::volume] * p.record[R::expansion] * (T(1) - members.own(p));
         p.kernel_gradient(gradient);
         for (int a = 0; a < Dim; ++a) outward[a] += volume * gradient[a];
-        support.value(p.dx, p.r2, w, unused);
-        occupied += volume * w;
+        occupied += volume * support.values(p.dx, p.r2, p.record).own;
       });
   for (std::size_t i = c.begin; i < c.end; ++i) {
     const int k = static_cast<int>(i - c.begin);

@@ -20,15 +20,25 @@ struct Fraction {
   V over, under;
 };
 
+/// What the kernels of both make of a pair.
+template <class V>
+struct KernelValues {
+  V own;     ///< W(x_ij, h_i) without its norm
+  V moment;  ///< |dW/deta| at eta_i, without its norm
+  V others;  ///< W(x_ij, h_j) over the norm of the kernel [1/length_unit^Dim]
+};
+
 /// Isotropic smoothing length h (SPH).
 template <class V, int Dim, class K, class R>
 struct IsotropicSupport {
   using S = kernel_detail::Scalar<V>;
-  V h, reach_reciprocal, slope_norm;  ///< of the lanes i
+  V h, reach_reciprocal, reach2, slope_norm;  ///< of the lanes i
 
   template <class Load>
   explicit IsotropicSupport(const Load& load)
-      : h(load(R::h)), reach_reciprocal(load(R::reach_reciprocal)), slope_norm(load(R::slope_norm)) {}
+      : h(load(R::h)), reach_reciprocal(load(R::reach_reciprocal)), slope_norm(load(R::slope_norm)) {
+    reach2 = S(1) / (reach_reciprocal * reach_reciprocal);
+  }
 
   struct Pair {
     V slope;  ///< grad_i W_ij = slope (x_j - x_i); 0 exactly where neither reaches the other
@@ -61,6 +71,9 @@ struct IsotropicSupport {
   }
   static constexpr double moment_scale = K::reduced_scale * (K::reduced_over_r ? 1 : K::support);
 
+  /// The value in lanes whose own kernel reaches the partner, else 0.
+  V within(const Pair&, V r2, V value) const { return r2 < reach2 ? value : V{}; }
+
   /// Speed of approach in Monaghan's viscosity (1992): mu = h v.x / (r^2 + 0.01 h^2) <= 0, with h the mean of both;
   /// `closing` is v.x.
   Fraction<V> approach(const Pair&, V r2, V closing, const S* j) const {
@@ -71,17 +84,11 @@ struct IsotropicSupport {
   /// h of the particle of a record [unit].
   static double scale(const S* record) { return 20 * static_cast<double>(record[R::h]); }
 
-  /// Kernel value and |dW/deta| at eta_i, both without norm.
-  void value(const V (&)[Dim], V r2, V& w, V& moment) const {
-    const V q = S(K::support) * simd::square_root(V(r2 + support_detail::guard<S>)) * reach_reciprocal;
-    w = K::value(q);
-    moment = -q * K::slope_over_q(q, V(simd::reciprocal(V(q + support_detail::guard<S>))));
-  }
-  /// W(x_ij, h_j) of the partner, over the kernel's norm [1/unit^Dim].
-  V partner_value(const V (&)[Dim], V r2, const S* j) const {
+  KernelValues<V> values(const V (&)[Dim], V r2, const S* j) const {
+    const V r = S(K::support) * simd::square_root(V(r2 + support_detail::guard<S>)), q = r * reach_reciprocal;
     const S n = S(K::support) * j[R::reach_reciprocal];
-    const V r = r2 * simd::reciprocal_sqrt(V(r2 + support_detail::guard<S>));
-    return (Dim == 2 ? n * n : n * n * n) * K::value(V(n * r));
+    return {K::value(q), -q * K::slope_over_q(q, V(simd::reciprocal(V(q + support_detail::guard<S>)))),
+            (Dim == 2 ? n * n : n * n * n) * K::value(V(r * j[R::reach_reciprocal]))};
   }
   /// Norm of the kernel of lane k [1/unit^Dim].
   double norm(int k) const {
@@ -104,6 +111,7 @@ struct EllipsoidalSupport {
 
   struct Pair {
     V along[Dim];  ///< grad_i W_ij
+    V own;         ///< > 0 exactly where lane i reaches the partner
     V weight;      ///< > 0 exactly where one reaches the other
     V mean_eta;
     V reach() const { return weight; }
@@ -132,12 +140,15 @@ struct EllipsoidalSupport {
     for (int a = 0; a < Dim; ++a)
       p.along[a] = half * (simd::rounded(V(weight_i * image_i[a])) + simd::rounded(V(weight_j * image_j[a])));
     moment = q_i * slope_i;
+    p.own = weight_i;
     p.weight = weight_i + weight_j;
     p.mean_eta = S(0.5) * (q_i + q_j);
     return p;
   }
 
   static constexpr double moment_scale = K::reduced_scale;
+
+  V within(const Pair& p, V, V value) const { return p.own > S(0) ? value : V{}; }
 
   /// Monaghan's mu with eta, the mean of both, in place of r/h: mu = (v.x/r) eta/(eta^2 + 0.01).
   Fraction<V> approach(const Pair& p, V r2, V closing, const S*) const {
@@ -153,18 +164,13 @@ struct EllipsoidalSupport {
     return matrix_of<Dim>(g);
   }
 
-  void value(const V (&dx)[Dim], V, V& w, V& moment) const {
+  KernelValues<V> values(const V (&dx)[Dim], V, const S* j) const {
     V image[Dim];
-    const V eta2 = quadratic_form<Dim>(metric, dx, image);
-    const V reciprocal = simd::reciprocal_sqrt(V(eta2 + support_detail::guard<S>)), q = eta2 * reciprocal;
-    w = K::value(q);
-    moment = -q * K::slope_over_q(q, reciprocal);
-  }
-  V partner_value(const V (&dx)[Dim], V, const S* j) const {
-    V image[Dim];
-    const V eta2 = quadratic_form<Dim>(j + R::metric, dx, image);
+    const V own2 = quadratic_form<Dim>(metric, dx, image), others2 = quadratic_form<Dim>(j + R::metric, dx, image);
+    const V reciprocal = simd::reciprocal_sqrt(V(own2 + support_detail::guard<S>)), q = own2 * reciprocal;
+    const V other_q = others2 * simd::reciprocal_sqrt(V(others2 + support_detail::guard<S>));
     constexpr S per_norm = static_cast<S>(1 / K::template norm<Dim>);
-    return per_norm * j[R::slope_norm] * K::value(V(eta2 * simd::reciprocal_sqrt(V(eta2 + support_detail::guard<S>))));
+    return {K::value(q), -q * K::slope_over_q(q, reciprocal), per_norm * j[R::slope_norm] * K::value(other_q)};
   }
   double norm(int k) const { return static_cast<double>(slope_norm[k]); }
 

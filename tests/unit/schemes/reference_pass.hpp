@@ -122,7 +122,7 @@ class Reference {
           f * mean_rho * (-settings_.viscosity_alpha * 0.5 * (c + c_j) * mu + settings_.viscosity_beta * mu * mu);
       const Vec<Dim> drag = viscosity * (settings_.stress ? Vec<Dim>(q.central * q.x) : q.g);
       const Vec<Dim> spring = hourglass(own, other, q) * q.central / (own.r * other.r) * q.x;
-      if (q.eta_i < kernel_.support || q.eta_j < kernel_.support) sums.approach = std::max(sums.approach, -mu);
+      if (q.eta_i < kernel_.support) sums.approach = std::max(sums.approach, -mu);
 
       // V_i w_ij and V_j w_ji, relative to V_i V_j.
       const double ours_share = weight(i, j) / other.V, theirs_share = weight(j, i) / own.V;
@@ -194,7 +194,7 @@ class Reference {
   };
   struct Pair {
     Vec<Dim> x, v, g, X;  ///< x_j - x_i, v_j - v_i, grad_i W, x_j - x_i at the start
-    double r, central, eta_i, eta_j, eta, stretch;
+    double r, central, eta_i, eta, stretch;
     bool own, bonded = false;
   };
 
@@ -224,8 +224,9 @@ class Reference {
     }
     q.X = y;
 
-    q.g = 0.5 * (one_sided(i, y, q.eta_i) + one_sided(j, y, q.eta_j));
-    q.eta = 0.5 * (q.eta_i + q.eta_j);
+    double eta_j;
+    q.g = 0.5 * (one_sided(i, y, q.eta_i) + one_sided(j, y, eta_j));
+    q.eta = 0.5 * (q.eta_i + eta_j);
     // Of a bond the kernel sees the separation at the start, and the viscosity acts along the present one.
     q.central = y.norm() > 0 ? y.dot(q.g) / y.squaredNorm() : 0;
     if (q.g.norm() > 0) q.stretch = std::max(1.0, q.r / y.norm());
