@@ -77,7 +77,7 @@ RECORDED, SURROUNDINGS = 9, 8 * (9 + 9 + 2 + 3 + 1)
 BONDS = ("start_position", "bond", "stretch")
 # Images have records too: the gas of cost_test.py, 10 particles wide, has 3 more layers beyond each of its faces.
 WITH_IMAGES = 1.6**3
-BONDED = 4 * RECORDED  # the place at the start, and how far the bond reaches
+BONDED = 14 * RECORDED  # the place at the start, how far the bond reaches, the deformation since and how stiff it is
 STRAINED = 7 * RECORDED * WITH_IMAGES  # of a gas: its rate of strain and switch
 # A byte for each cluster of as many particles as a register has lanes: whether it touches another piece.
 TOUCHING = 1 / (8 if "avx512f" in Path("/proc/cpuinfo").read_text() else 4)
