@@ -21,7 +21,8 @@ class TaylorAnvil(Case):
     name = "taylor_anvil"
     title = "copper rod, yield stress 400 MPa, at a wall with 205 m/s"
     exact = ("kinetic energy lost = plastic work + viscous work + elastic energy; length: exp(-rho V^2/(2 Y)) "
-             "(Wilkins & Guinan 1973, J. Appl. Phys. 44, 1200)")
+             "(Wilkins & Guinan 1973, J. Appl. Phys. 44, 1200) with the energy that the viscosity leaves; on the axis "
+             "the mean of exp(-plastic strain)")
     quick = (3, 4)
     full = (3, 4, 6, 8, 12)
     boost = "walls on every axis"
@@ -30,10 +31,13 @@ class TaylorAnvil(Case):
         Bound("viscous share", "relative", {3: 0.4, 4: 0.3, 6: 0.2, 8: 0.15, 12: 0.1}, 0.6, why="an ideally plastic rod "
               "has none but that of the first shock; a tenth is asked at 12. 28, 23, 18, 14 % were measured at 3, 4, 6, 8: the "
               "coarse rods converge more slowly than at first order"),
-        Bound("final length", "change by 3/2 in spacing", {4: 0.03, 6: 0.02, 8: 0.015, 12: 0.01}, why="it "
-              "converges; an order of differences means little at 3 and 4"),
-        Bound("final length", "relative", 0.22, why="the formula is an estimate; what the viscosity takes does not "
-              "shorten the rod"),
+        Bound("final length", "relative", 0.08, why="the formula is an estimate, of a rod that is compressed evenly: 5.7 to "
+              "6.9 % at any resolution. Plastic strain a tenth too large: 10 %"),
+        Bound("final length", "change by 3/2 in spacing", 0.01, why="of the error above, of which viscosity is no part: 0.1 "
+              "to 0.7 %. It is noise: spacings from 0.60 to 0.72 mm, which cut the circle otherwise, give 5.7 to 6.7 %. The "
+              "length itself falls by 3.0, 2.7, 2.5, 1.3 % at 4, 6, 8, 12, as the viscous share does"),
+        Bound("final length", "to strain of the axis", 0.01, why="0.2 to 0.6 % at any resolution; a part is elastic, which "
+              "is 0.3 % at yield. Plastic strain a tenth too large: 1.4 % at 4"),
     )
 
     def settings(self, resolution):
@@ -41,18 +45,17 @@ class TaylorAnvil(Case):
 
     def errors(self, run, resolution):
         copper, numerics = run.scene["materials"]["copper"], run.scene["numerics"]
-        strength = number(copper["strength"]["yield_stress"])
         # The balance by formula, with a viscosity that a snapshot holds all of: the switch of the default changes in
         # every step.
         constant = again(self.scene_file, run, "constant", {"numerics.shock_switch": "false"})
         viscous = self.viscous_work(constant, numerics["viscosity_alpha"], numerics["viscosity_beta"])
-        wilkins = np.exp(-number(copper["eos"]["density"]) * SPEED**2 / (2 * strength))
-        length = self.length(run)
+        above = self.above_wilkins(run, copper)
         coarse = again(self.scene_file, run, "coarse", {"resolution.spacing": (1.5 * RADIUS / resolution, "m")})
         return {("energy balance", "relative"): abs(self.solid_share(constant, copper) + viscous / self.lost(constant) - 1),
                 ("viscous share", "relative"): 1 - self.solid_share(run, copper),
-                ("final length", "change by 3/2 in spacing"): abs(self.length(coarse) / length - 1),
-                ("final length", "relative"): abs(length / (LENGTH * wilkins) - 1)}
+                ("final length", "relative"): abs(above - 1),
+                ("final length", "change by 3/2 in spacing"): abs(self.above_wilkins(coarse, copper) / above - 1),
+                ("final length", "to strain of the axis"): abs(self.axis_by_strain(run) / self.shortening(run) - 1)}
 
     @staticmethod
     def lost(run):
@@ -64,8 +67,24 @@ class TaylorAnvil(Case):
         elastic = self.elastic_energy(run.final, number(copper["elastic"]["shear_modulus"]), number(copper["eos"]["A"]))
         return (plastic + elastic) / self.lost(run)
 
-    def length(self, run):
-        return run.final["position"][:, 0].max() + 0.5 * run.final.volume.mean() ** (1 / 3)
+    def shortening(self, run):
+        """Final length over that of the lattice, which has the volume of the cylinder and so not quite its length: 23.4 to
+        24.1 mm. The free end is where its speed has brought it in the first state: no wave has come to it."""
+        first, half_cell = run.states[0], 0.5 * run.final.volume.mean() ** (1 / 3)
+        laid = first["position"][:, 0].max() + SPEED * first.time + half_cell
+        return (run.final["position"][:, 0].max() + half_cell) / laid
+
+    def above_wilkins(self, run, copper):
+        """The same over the formula with the energy that became plastic work and stress. What the viscosity takes does
+        not shorten the rod."""
+        strength, density = number(copper["strength"]["yield_stress"]), number(copper["eos"]["density"])
+        return self.shortening(run) / np.exp(-self.solid_share(run, copper) * density * SPEED**2 / (2 * strength))
+
+    def axis_by_strain(self, run):
+        """What the plastic strain of the particles next to the axis makes of the rod: symmetry lets them be compressed
+        along it and nothing else, and plastic strain is the logarithm of that."""
+        radius = np.hypot(*run.states[0]["position"][:, 1:].T)
+        return np.exp(-run.final["plastic_strain"][radius < 1.01 * radius.min()]).mean()
 
     def plastic_work(self, run, strength, density):
         """int Y V d(eps_p) along every particle, by the trapezoidal rule over the snapshots."""
