@@ -35,18 +35,17 @@ template <int Dim>
 struct Span {
   Mat<Dim> projector;
   int rank;
-  double low, high;  ///< m; low is 0 without a hole
+  double low, high;    ///< m; low is 0 without a hole
+  bool whole = false;  ///< between planes that are parallel to a lattice: it holds whole layers
 };
 
 /// A shape has, with d the place relative to the centre of the body [m]:
 /// - contains(d);
 /// - half_extent(): half edges of the smallest axis-parallel box about the centre that holds it [m];
 /// - volume() [m^3; m^2 in plane strain];
-/// - spans(): of its faces;
-/// - whole_cells: whether its edges hold a whole number of cells of a lattice.
+/// - spans(): of its faces.
 template <int Dim>
 struct BoxShape {
-  static constexpr bool whole_cells = true;
   explicit BoxShape(const Body& body) : edges(first_components<Dim>(body.size)) {}
 
   bool contains(const Vec<Dim>& d) const { return (d.array().abs() <= half_extent().array() * (1 + 1e-12)).all(); }
@@ -59,7 +58,7 @@ struct BoxShape {
   std::vector<Span<Dim>> spans() const {
     std::vector<Span<Dim>> list;
     const Mat<Dim> all = Mat<Dim>::Identity();
-    for (int a = 0; a < Dim; ++a) list.push_back({all.col(a) * all.col(a).transpose(), 1, 0, 0.5 * edges[a]});
+    for (int a = 0; a < Dim; ++a) list.push_back({all.col(a) * all.col(a).transpose(), 1, 0, 0.5 * edges[a], true});
     return list;
   }
 
@@ -69,7 +68,6 @@ struct BoxShape {
 /// A sphere or disc, perhaps with a hole.
 template <int Dim>
 struct RoundShape {
-  static constexpr bool whole_cells = false;
   explicit RoundShape(const Body& body) : radius(body.radius), hole(body.inner_radius) {}
 
   bool holds(double distance2) const { return distance2 <= radius * radius && distance2 >= hole * hole; }
@@ -86,7 +84,6 @@ struct RoundShape {
 };
 
 struct CylinderShape {
-  static constexpr bool whole_cells = false;
   explicit CylinderShape(const Body& body)
       : section(body), axis(first_components<3>(body.axis).normalized()), length(body.length) {}
 
@@ -98,7 +95,8 @@ struct CylinderShape {
   double volume() const { return section.area() * length; }
   std::vector<Span<3>> spans() const {
     const Mat<3> along = axis * axis.transpose();
-    return {{along, 1, 0, 0.5 * length}, {Mat<3>::Identity() - along, 2, section.hole, section.radius}};
+    const bool parallel = along.diagonal().maxCoeff() > 1 - 1e-14;
+    return {{along, 1, 0, 0.5 * length, parallel}, {Mat<3>::Identity() - along, 2, section.hole, section.radius}};
   }
 
   RoundShape<3> section;

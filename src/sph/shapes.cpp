@@ -62,19 +62,30 @@ double depth(const Body& body, const Vec<Dim>& x) {
 
 namespace {
 
-/// Scales all volumes by stretch^Dim. The face of a hole stays where it is.
+/// Scales lengths by `stretch` where they do not hold whole layers. The face of a hole stays where it is.
 template <int Dim>
 Vec<Dim> stretched(const std::vector<Span<Dim>>& spans, double stretch, const Vec<Dim>& d) {
-  Vec<Dim> moved = stretch * d;
+  Vec<Dim> moved = Vec<Dim>::Zero();
   for (const Span<Dim>& span : spans) {
-    if (span.low == 0) continue;
     const Vec<Dim> across = span.projector * d;
-    const double before = across.norm(), hole = std::pow(span.low, span.rank);
-    const double after =
-        std::pow(hole + std::pow(stretch, span.rank) * (std::pow(before, span.rank) - hole), 1.0 / span.rank);
-    moved += (after / before - stretch) * across;
+    double factor = span.whole ? 1 : stretch;
+    if (span.low > 0) {
+      const double before = across.norm(), hole = std::pow(span.low, span.rank);
+      const double after =
+          std::pow(hole + std::pow(stretch, span.rank) * (std::pow(before, span.rank) - hole), 1.0 / span.rank);
+      factor = after / before;
+    }
+    moved += factor * across;
   }
   return moved;
+}
+
+/// The half length along an axis that holds whole layers, or 0.
+template <int Dim>
+double half_length_of_layers(const std::vector<Span<Dim>>& spans, int axis) {
+  for (const Span<Dim>& span : spans)
+    if (span.whole && span.projector(axis, axis) > 0.5) return span.high;
+  return 0;
 }
 
 }  // namespace
@@ -83,13 +94,15 @@ template <int Dim>
 PointCloud<Dim> fill(const Body& body, double spacing, Lattice lattice, std::uint64_t seed) {
   Cell<Dim> cell = lattice_cell<Dim>(lattice, spacing);
   const Vec<Dim> center = first_components<Dim>(body.center);
-  const auto [half, whole_cells] = with_shape<Dim>(
-      body, [](const auto& shape) { return std::pair(Vec<Dim>(shape.half_extent()), shape.whole_cells); });
+  const auto [half, spans] =
+      with_shape<Dim>(body, [](const auto& shape) { return std::pair(Vec<Dim>(shape.half_extent()), shape.spans()); });
   Eigen::Matrix<int, Dim, 1> cells;
+  int free = Dim;  // directions that may be stretched to make the volume exact
   for (int a = 0; a < Dim; ++a) {
-    if (whole_cells) {
-      cells[a] = std::max(1, static_cast<int>(std::lround(2 * half[a] / cell.edge[a])));
-      cell.edge[a] = 2 * half[a] / cells[a];
+    if (const double layers = half_length_of_layers<Dim>(spans, a); layers > 0) {
+      cells[a] = std::max(1, static_cast<int>(std::lround(2 * layers / cell.edge[a])));
+      cell.edge[a] = 2 * layers / cells[a];
+      --free;
     } else {
       cells[a] = 2 * (static_cast<int>(half[a] / cell.edge[a]) + 1);
     }
@@ -122,10 +135,9 @@ PointCloud<Dim> fill(const Body& body, double spacing, Lattice lattice, std::uin
     return cloud;
   }
   // The points kept rarely add up to the volume of a round shape: a ball of 100 cells may be off by a sixth. Growing or
-  // shrinking the whole cloud a little makes it exact.
+  // shrinking the cloud a little, where it is round, makes it exact.
   const double exact = volume(body, Dim) / static_cast<double>(cloud.points.size());
-  const double stretch = std::pow(exact / cloud.volume, 1.0 / Dim);
-  const auto spans = with_shape<Dim>(body, [](const auto& shape) { return shape.spans(); });
+  const double stretch = free == 0 ? 1 : std::pow(exact / cloud.volume, 1.0 / free);
   for (Vec<Dim>& x : cloud.points) x = center + stretched<Dim>(spans, stretch, x - center);
   cloud.volume = exact;
   return cloud;

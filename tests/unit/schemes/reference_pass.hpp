@@ -146,8 +146,10 @@ class Reference {
       sums.acceleration += other.V / rho * force;
       sums.heating += other.V / rho * heat;
       const double gradient_weight = q.own ? weight(i, j) : other.V, strain = other.V * q.v.norm() * q.g.norm();
-      sums.acceleration_scale += other.V / rho * ((ours.norm() + theirs.norm()) * q.g.norm() + drag.norm() + spring.norm());
-      sums.heating_scale += (ours.norm() + theirs.norm()) / rho * strain + other.V / rho * (drag + spring).norm() * q.v.norm();
+      sums.acceleration_scale +=
+          other.V / rho * ((ours.norm() + theirs.norm()) * q.g.norm() + drag.norm() + spring.norm());
+      sums.heating_scale +=
+          (ours.norm() + theirs.norm()) / rho * strain + other.V / rho * (drag + spring).norm() * q.v.norm();
       sums.gradient_scale += gradient_weight * q.v.norm() * q.g.norm();
 
       const Mat<Dim> add = gradient_weight * q.v * q.g.transpose(),
@@ -299,7 +301,10 @@ class Reference {
   }
   /// Pressure of the springs of hourglass.hpp.
   static double hourglass(const View& i, const View& j, const Pair& q) {
-    const auto one = [&](const View& view) { return view.k * (q.x.dot(view.F * q.X) / (q.r * q.r) - 1); };
+    const auto one = [&](const View& view) {
+      const double off = q.x.dot(view.F * q.X) / (q.r * q.r) - 1;
+      return view.k * (off - std::clamp(off, -hourglass_onset, hourglass_onset));
+    };
     return q.bonded ? 0.5 * (one(i) + one(j)) : 0;
   }
   template <class Take>

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 namespace ejecta {
 namespace {
@@ -142,6 +144,27 @@ TEST(Shapes, CubicLatticesHaveSixNeighboursAtTheSpacing) {
   const auto [distance, count] = nearest<3>(solid, {1, 2, 3});
   EXPECT_NEAR(distance, std::cbrt(solid.volume), 1e-12);
   EXPECT_EQ(count, 6);
+}
+
+TEST(Shapes, ARodAlongALatticeIsAsLongAsItIsSaidToBe) {
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double spacing : {0.1, 0.07, 0.052}) {
+      Triple direction{0, 0, 0};
+      direction[static_cast<std::size_t>(axis)] = -1;
+      const Body rod = cylinder(0.4, 2, direction);
+      const auto cloud = fill<3>(rod, spacing, Lattice::cubic);
+      std::set<long> layers;
+      double low = 1e9, high = -1e9;
+      for (const auto& x : cloud.points) {
+        low = std::min(low, x[axis]);
+        high = std::max(high, x[axis]);
+        layers.insert(std::lround(1e6 * x[axis]));
+      }
+      const double thickness = (high - low) / static_cast<double>(layers.size() - 1);
+      EXPECT_NEAR(high - low + thickness, 2, 1e-12);
+      EXPECT_NEAR(0.5 * (high + low), rod.center[static_cast<std::size_t>(axis)], 1e-12);
+      EXPECT_NEAR(filled(cloud), volume(rod, 3), 1e-12);
+    }
 }
 
 TEST(Shapes, AHoleIsLeftOut) {

