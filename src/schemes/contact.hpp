@@ -39,12 +39,13 @@ struct Contact {
     const V other = simd::all<V>(p.record[R::sound_speed]);
     return simd::min(V(T(4) * simd::min(sound_speed, other) / (sound_speed + other)), V{} + T(1));
   }
-  /// What closes the gap between pieces, of v.x (`along`): sliding does not brake.
+  /// What closes the gap between pieces, of v.x (`along`), beyond what slides: sliding does not brake, before a particle
+  /// as little as behind it, and as v.x is at most this, what acts on it heats and never cools.
   template <class Partner>
   V closing(const Partner& p, const V (&dv)[Dim], V along) const {
     V n[Dim];
     const V n2 = mean_normal(p, n), gap = dot(dv, n) * dot(p.dx, n) / (n2 + T(1e-20));
-    return n2 > T(0.01) ? gap : along;
+    return n2 > T(0.01) ? V(gap + simd::magnitude(V(along - gap))) : along;
   }
   /// Adds friction to the force per volume; returns half of what it heats, in single precision beyond half of its work
   /// on dv, which the pass counts with that of the other forces. The velocity of an image behind a wall is mirrored;

@@ -56,7 +56,9 @@ void hold_density(Sph<Dim>& sph, const Material& material, double share, std::si
   const double whole = material.bulk_density();
   const double reach =
       1 + std::sqrt(2 * std::max(0.0, p.column(Field::specific_energy)[i])) / p.column(Field::sound_speed)[i];
-  density = std::max(density, std::min(least, whole * reach));
+  // Pores that are crushed beside it crowd the neighbours of a particle: what is not thin is let alone, or it would do
+  // work again and again for which nobody has paid.
+  density = std::max(density, std::min(least, whole * std::max(1.0, reach - 1)));
   const Body& body = sph.scene.bodies[static_cast<std::size_t>(p.label(Label::body)[i])];
   const double h0 = target * sph.scene.spacing * body.spacing_factor;
   // Whatever has compressed condensed matter, quasi-statically or by a shock, has left it the energy for that: what is

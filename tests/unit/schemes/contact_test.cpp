@@ -192,6 +192,29 @@ TEST(Contact, SlidingBodiesAreNeitherBrakedNorShearedWithoutFriction) {
   EXPECT_LT(slow[1], 1e-3 * 0.3 * -slow[0]);
 }
 
+/// Its force is along the pair, whose ends may part by sliding where the gap closes.
+TEST(Contact, ViscosityBetweenPiecesHeatsHoweverTheySlide) {
+  for (const bool asph : {false, true}) {
+    auto settings = solid_settings();
+    settings.asph = asph;
+    std::vector<Field> more;
+    if (asph) more.push_back(Field::smoothing_metric);
+    auto p = random_matter<3>(600, 57, true, 1.5, more);
+    if (asph) random_ellipsoids(p, 2, 58);
+    split_in_two(p, settings);
+    std::ranges::fill(p.column(Field::pressure), 0);
+    for (int k = 0; k < components(info(Field::deviatoric_stress).shape, 3); ++k)
+      std::ranges::fill(p.column(Field::deviatoric_stress, k), 0);
+    for (std::size_t i = 0; i < p.size(); ++i)
+      p.set_vector(Field::velocity, i, p.label(Label::body)[i] == 0 ? Vec<3>(0, 0, 0) : Vec<3>(-30, 80, 50));
+    run_rates(p, settings);
+    const auto heating = p.column(Field::specific_energy_rate);
+    const double most = std::ranges::max(heating);
+    EXPECT_GT(most, 0);
+    for (const double h : heating) EXPECT_GE(h, -1e-13 * most);
+  }
+}
+
 TEST(Contact, TheSofterSideDecidesTheStressOfTheContact) {
   // A solid of impedance 4e6 against a gas of 600.
   const auto force = [](double solid, double gas) {

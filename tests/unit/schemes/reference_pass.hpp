@@ -111,7 +111,11 @@ class Reference {
       const double c_j = column(Field::sound_speed, j), rho_j = column(Field::density, j);
       Vec<Dim> n = own.normal - other.normal;
       if (!q.own) {
-        closing = n.squaredNorm() > 0.01 ? q.v.dot(n) * q.x.dot(n) / n.squaredNorm() : q.v.dot(q.x);
+        closing = q.v.dot(q.x);
+        if (n.squaredNorm() > 0.01) {
+          const double gap = q.v.dot(n) * q.x.dot(n) / n.squaredNorm();
+          closing = gap + std::abs(closing - gap);
+        }
         f = contact_of_pair(i, j) * std::min(1.0, 4 * std::min(c, c_j) / (c + c_j));
       }
       const double mean_h = 0.5 * (h + column(Field::smoothing_length, j));

@@ -180,6 +180,27 @@ TEST(HeldDensity, FollowsTheNeighboursWhereContinuityHasLostThem) {
   EXPECT_NEAR(held(*sim, 20 * whole, middle) / whole, 1.7 * 8, 0.2);
 }
 
+/// Crushed pores beside a particle crowd its neighbours: it must not be pressed by the count alone, or it does work that
+/// nobody has done on it.
+TEST(HeldDensity, ACrowdThickensVapourAlone) {
+  const auto sim = cube("aluminium");
+  auto& p = sim->particles;
+  const double whole = sim->materials[0].bulk_density();
+  const std::size_t i = middle(*sim);
+  const Vec<3> x = p.vector(Field::position, i);
+  const auto it = [&](const Vec<3>& other) { return other == x; };
+  p.column(Field::mass)[i] *= 3;  // as three times as many neighbours
+  const auto heat = [&](double reach) {
+    const double u = (reach - 1) * p.column(Field::sound_speed)[i];
+    p.column(Field::specific_energy)[i] = 0.5 * u * u;
+  };
+  heat(1.3);
+  EXPECT_EQ(held(*sim, 1.05 * whole, it), 1.05 * whole);
+  EXPECT_NEAR(held(*sim, 0.5 * whole, it) / whole, 1, 1e-9);
+  heat(4);
+  EXPECT_NEAR(held(*sim, 0.5 * whole, it) / whole, 1.8, 0.03);
+}
+
 TEST(SmoothingLengths, StayWithinTheirBounds) {
   const auto sim = cube("aluminium");
   auto h = sim->particles.column(Field::smoothing_length), sum = sim->particles.column(Field::zeroth_moment);
