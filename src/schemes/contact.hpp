@@ -39,8 +39,8 @@ struct Contact {
     const V other = simd::all<V>(p.record[R::sound_speed]);
     return simd::min(V(T(4) * simd::min(sound_speed, other) / (sound_speed + other)), V{} + T(1));
   }
-  /// What closes the gap between pieces, of v.x (`along`), beyond what slides: sliding does not brake, before a particle
-  /// as little as behind it, and as v.x is at most this, what acts on it heats and never cools.
+  /// What closes the gap between pieces, of v.x (`along`), beyond what slides: sliding does not brake, before a
+  /// particle as little as behind it, and as v.x is at most this, what acts on it heats and never cools.
   template <class Partner>
   V closing(const Partner& p, const V (&dv)[Dim], V along) const {
     V n[Dim];
