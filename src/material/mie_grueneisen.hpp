@@ -19,7 +19,9 @@ namespace ejecta {
 /// solid would last to zero density), and both ends are continued:
 /// - above eta_max along the tangent at eta_max, so that pressure and slope stay continuous;
 /// - below eta_min P falls to zero with the density, P = (eta/eta_min) P(eta_min, e), as that of an ideal gas does.
-///   Cold matter is mechanically unstable there and has the least sound speed.
+///   Cold matter is mechanically unstable there and has the least sound speed. Tension falls twice as fast: it ends at
+///   eta_min/2. On an isentrope tension over density would grow with the density to the power of gamma0/eta_min, and
+///   drawn-out matter that cooled a little too far would lose energies without end as it comes together.
 struct MieGrueneisen {
   static constexpr bool gas = false;
 
@@ -39,9 +41,10 @@ struct MieGrueneisen {
   EosPoint evaluate(double rho, double e) const {
     const double eta = rho * (1 / rho0);
     if (eta < eta_min) {
-      const double share = eta / eta_min;
       const EosPoint end = at(eta_min - 1, e);
-      return {share * end.pressure, end.pressure / (eta_min * rho0), share * end.dP_de};
+      const double steepness = end.pressure < 0 ? 2 : 1, share = std::max(0.0, 1 - steepness * (1 - eta / eta_min));
+      const double per_density = share > 0 ? steepness / (eta_min * rho0) : 0;
+      return {share * end.pressure, per_density * end.pressure, share * end.dP_de};
     }
     if (eta > eta_max) {
       const EosPoint end = at(eta_max - 1, e);

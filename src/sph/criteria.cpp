@@ -83,8 +83,17 @@ IndexedMin acceleration(const Sph<Dim>& sph) {
 
 template <int Dim>
 IndexedMin compression(const Sph<Dim>& sph) {
-  const auto rate = sph.particles.column(Field::compression_rate);
-  return parallel_min(rate.size(), never, [&](std::size_t i) { return 1 / std::abs(rate[i]); });
+  // Matter whose pressure is that of its heat loses P/(rho e) times as large a share of this heat as of its density: up
+  // to 3 in vapours. It must not lose all of it in a step.
+  constexpr double steepest = 3;
+  const auto& p = sph.particles;
+  const auto rate = p.column(Field::compression_rate), pressure = p.column(Field::pressure),
+             density = p.column(Field::density), energy = p.column(Field::specific_energy);
+  return parallel_min(rate.size(), never, [&](std::size_t i) {
+    const double heat = std::max(density[i] * energy[i], 0.0);
+    const bool cools = rate[i] < 0 && pressure[i] > heat;
+    return 1 / std::abs(rate[i] * (cools ? std::min(steepest, pressure[i] / heat) : 1.0));
+  });
 }
 
 }  // namespace

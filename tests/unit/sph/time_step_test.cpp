@@ -45,6 +45,25 @@ TEST(TimeStep, IsShortenedByCompression) {
   EXPECT_NEAR(vote.dt, sim->scene.numerics.courant * 1e-9, 1e-22);
 }
 
+/// A vapour of P = 2 rho e loses twice as large a share of its heat as of its density; cold matter has none to lose.
+TEST(TimeStep, LeavesVapourSomeOfItsHeat) {
+  const auto sim = start<3>(porous_impact);
+  auto& p = sim->particles;
+  p.column(Field::compression_rate)[77] = -1e9;
+  const auto vote = [&](double pressure, double energy) {
+    p.column(Field::pressure)[77] = pressure;
+    p.column(Field::specific_energy)[77] = energy / p.column(Field::density)[77];
+    return sim->vote().dt / (sim->scene.numerics.courant * 1e-9);
+  };
+  EXPECT_NEAR(vote(2e9, 1e9), 1. / 2, 1e-12);
+  EXPECT_NEAR(vote(1e9, 1e6), 1. / 3, 1e-12) << "what elastic matter stores is no vapour's heat";
+  EXPECT_NEAR(vote(1e9, -1e6), 1. / 3, 1e-12);
+  EXPECT_NEAR(vote(5e8, 1e9), 1, 1e-12);
+  EXPECT_NEAR(vote(-1e6, -1e7), 1, 1e-12);
+  p.column(Field::compression_rate)[77] = 1e9;
+  EXPECT_NEAR(vote(2e9, 1e9), 1, 1e-12) << "compression heats";
+}
+
 TEST(TimeStep, IsNotShortenedByGrowingCracks) {
   const auto sim = start<3>(porous_impact);
   const double before = sim->vote().dt;
