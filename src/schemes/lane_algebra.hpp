@@ -29,8 +29,8 @@ V dot(const V (&a)[Dim], const V (&b)[Dim]) {
   return sum;
 }
 
-/// ((A + Sign B - pressure I) . g)_a with tensors stored row by row, or one number each for isotropic stresses. The same
-/// number wherever it is inlined.
+/// ((A + Sign B - pressure I) . g)_a with tensors stored row by row, or one number each for isotropic stresses. The
+/// same number wherever it is inlined.
 template <bool Stress, int Dim, int Sign = 1, class TensorA, class TensorB, class V>
 [[gnu::always_inline]] inline void contract(const TensorA& A, const TensorB& B, V pressure, const V (&g)[Dim],
                                             V (&f)[Dim]) {

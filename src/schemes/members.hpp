@@ -27,7 +27,7 @@ struct Candidate : Bond<V, Dim, Kind.bonded> {
   V along;  ///< v.x, from the first body on
   Pair pair;
   const T *record, *contact;  ///< contact: only with contacts
-  bool foreign;                 ///< in some lane of another piece; only with contacts
+  bool foreign;               ///< in some lane of another piece; only with contacts
 };
 
 /// A candidate as the lanes of a cluster see it.

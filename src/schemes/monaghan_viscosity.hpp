@@ -22,7 +22,7 @@ template <class V>
   theirs = simd::min(theirs, V{});
   const V product = ours * theirs, sum = (ours + theirs) - guard;  // mean = product / sum <= 0
   const V trusted = trust * simd::magnitude(along) + guard;
-  const V quotient = simd::reciprocal(V(sum * trusted));  // one division for both
+  const V quotient = simd::reciprocal(V(sum * trusted));               // one division for both
   const V off = simd::magnitude(V(product - along * sum)) * quotient;  // <= 0
   return product * trusted * quotient * simd::max(simd::min(V(T(2) + off), V{} + T(1)), V{});
 }

@@ -83,17 +83,19 @@ class PairPass {
   /// size (PairRecord::contact, t_ij the larger of both) they act on each other by what presses across the contact,
   ///   dv_i/dt += 1/rho_i sum_j V_j [t_ij (a_ij T'_i + a_ji T'_j) g_ij - q_ij x_ji (x_ji.g_ij)/r^2],
   /// T' and the strain that goes with it as in gradient_correction.hpp, a_ij = 2 Z_j/(Z_i + Z_j) with the impedances
-  /// Z = rho c: a contact pushes, never pulls, and slides. The viscosity sees what closes the gap alone. Friction
-  /// adds min(mu p, Z |v_t|) against the sliding velocity v_t, p the force across the contact.
+  /// Z = rho c: a contact pushes, never pulls, and slides. The viscosity sees what closes the gap beyond what slides.
+  /// Friction adds min(mu p, Z |v_t|) against the sliding velocity v_t, p the force across the contact.
   ///
   /// Bonded, particles that hold on to their first neighbours (bond = 1) take W and its gradient at the places of the
-  /// start: nothing clumps under tension [Belytschko et al. 2000], and M^-1 brings the deformation in. The pressure p_ij
-  /// of hourglass.hpp acts between them as q does, along the pair. Bonded particles
-  /// of one piece that were further apart than twice the support meet like strangers.
+  /// start: nothing clumps under tension [Belytschko et al. 2000], and M^-1 brings the deformation in. The pressure
+  /// p_ij of hourglass.hpp acts between them as q does, along the pair. Bonded particles of one piece that were further
+  /// apart than twice the support meet like strangers.
   ///
-  /// Cracked, S is what cracks let through (cracked_stress.hpp), and uncut_gradient is the velocity gradient summed
-  /// with weights f_ij = 1 - max(n.D_i n, n.D_j n), n the direction of the pair (D = 0 where a material is not cut): an
-  /// opening crack does not strain the matter beside it.
+  /// Cracked, S is what cracks let through (cracked_stress.hpp), and uncut_gradient L' is the velocity gradient summed
+  /// with weights f_ij w_ij, f_ij = 1 - max(n.D_i n, n.D_j n), n the direction of the pair (D = 0 where a material is
+  /// not cut): an opening crack does not strain the matter beside it. S, which answers to L', acts by the adjoint of L',
+  ///   T_i = -P_i M_i^-T + f_ij S_i M'_i^-T,   m_i du_i/dt = V_i (-P_i tr L_i + S_i : L'_i) + ...,
+  /// and works on nothing else.
   ///
   /// With Godunov fluxes forces and heat are those of riemann_flux.hpp, and where there is a compression_rate it is
   ///   (1/rho) drho/dt = -sum_j 2 V_j a_ij.(v* - v_i) + c/h ln(sum_j V_j W(r_ij, h_j)/(that of the lattice)):

@@ -7,6 +7,7 @@
 #include "base/flush_denormals.hpp"
 #include "base/parallel.hpp"
 #include "schemes/contact.hpp"
+#include "schemes/cracks.hpp"
 #include "schemes/gradient_correction.hpp"
 #include "schemes/hourglass.hpp"
 #include "schemes/lane_algebra.hpp"
@@ -30,14 +31,15 @@ template <class T, int Dim, PassKind Kind, class K, class Flux>
 class PairPassOf final : public PairPass<Dim> {
  public:
   explicit PairPassOf(const PairPassSettings& settings)
-      : settings_(settings), around_{{}, settings.gradient_correction, HalfSpace(K{}, Dim)} {}
+      : settings_(settings), around_{{}, {}, settings.gradient_correction, HalfSpace(K{}, Dim)} {}
 
   void density(Particles<Dim>& particles, const PairLists<Dim>& lists) override;
   void rates(Particles<Dim>& particles, const PairLists<Dim>& lists) override;
   void slopes(Particles<Dim>& particles, const PairLists<Dim>& lists) override;
   std::size_t bytes() const override {
     return (records_.capacity() + contacts_.capacity()) * sizeof(T) + in_contact_.capacity() +
-           pieces_.capacity() * sizeof(pieces_[0]) + around_.sums.capacity() * sizeof(around_.sums[0]);
+           pieces_.capacity() * sizeof(pieces_[0]) + around_.sums.capacity() * sizeof(around_.sums[0]) +
+           around_.cut.capacity() * sizeof(around_.cut[0]);
   }
 
  private:
@@ -60,7 +62,8 @@ class PairPassOf final : public PairPass<Dim> {
     V gradients[Dim] = {};  ///< weighted kernel gradients: what the stress of i acts on
     V pull[Dim] = {};       ///< of the stresses of all j
     TensorSum gradient, contact_gradient;
-    TensorSum cut, cut_moment;  ///< the share that cracks take off
+    V cut_gradients[Dim] = {};  ///< the share that cracks take off, of the first and of `gradient`
+    TensorSum cut;
   };
 
   RecordScales scales() const {
@@ -105,7 +108,7 @@ class PairPassOf final : public PairPass<Dim> {
   template <bool Contacts, class ContactLanes>
   [[gnu::always_inline]] inline void close(const RateColumns<Dim>& columns, const Cluster& c, const RateSums& sums,
                                            const V (&v)[Dim], const V (&stress)[R::stresses],
-                                           const ContactLanes& contact) const;
+                                           const V (&shear)[R::stresses], const ContactLanes& contact) const;
   void cluster_density(const RateColumns<Dim>& columns, const Cluster& c, Candidates candidates) const;
   void cluster_slopes(const RateColumns<Dim>& columns, const Cluster& c, Candidates candidates) const;
   void cluster_fluxes(const RateColumns<Dim>& columns, const Cluster& c, Candidates candidates) const;
@@ -183,6 +186,7 @@ void PairPassOf<T, Dim, Kind, K, Flux>::rates_by_stress(Particles<Dim>& particle
   in_contact_.assign(clusters.size(), 0);
   if constexpr (Kind.stress) {
     around_.sums.resize(particles.size());
+    if constexpr (Kind.cracked) around_.cut.resize(particles.size());
     if (settings_.contacts) {
       pieces_.resize(particles.size() + lists.ghosts().size());
       parallel_for(0, pieces_.size(),
@@ -247,8 +251,7 @@ void PairPassOf<T, Dim, Kind, K, Flux>::cluster_density(const RateColumns<Dim>& 
     const KernelValues<V> values = support.values(between, distance2, p.record);
     density.add(Flux::whole ? T(1) : R::mass(p.record), values.own);
     if constexpr (Flux::whole)
-      if (fills)
-        filling.add(p.record[R::volume] * p.record[R::expansion], values.others);
+      if (fills) filling.add(p.record[R::volume] * p.record[R::expansion], values.others);
     sum += values.moment;
   }
   for (std::size_t i = c.begin; i < c.end; ++i) {

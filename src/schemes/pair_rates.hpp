@@ -15,10 +15,10 @@ void PairPassOf<T, Dim, Kind, K, Flux>::cluster_rates(const RateColumns<Dim>& co
   V v[Dim], stress[R::stresses];
   for (int a = 0; a < Dim; ++a) v[a] = load(R::v + a);
   for (int s = 0; s < R::stresses; ++s) stress[s] = load(R::stress + s);
-  [[maybe_unused]] V damage[symmetric_size<Dim>];
-  if constexpr (Kind.cracked) {
-    for (int s = 0; s < symmetric_size<Dim>; ++s) damage[s] = load(R::damage + s);
-  }
+  [[maybe_unused]] V shear[R::stresses];
+  if constexpr (Kind.cracked)
+    for (int s = 0; s < R::stresses; ++s) shear[s] = load(R::shear + s);
+  [[maybe_unused]] const pair_detail::Cracks<T, V, R, Dim, Kind.cracked> cracks(load);
   const FluxLanes flux(load, settings_);
   [[maybe_unused]] const auto hourglass = pair_detail::hourglass_of<Kind.bonded, T, V, R, Dim>(load);
   const V expansion = load(R::expansion), compression = load(R::compression);
@@ -44,12 +44,23 @@ void PairPassOf<T, Dim, Kind, K, Flux>::cluster_rates(const RateColumns<Dim>& co
         returned[b] *= shares.other;
       }
     }
+    [[maybe_unused]] V cut;
+    [[maybe_unused]] bool is_cut = false;
+    if constexpr (Kind.cracked) is_cut = cracks.cut(p, cut);
     if constexpr (apart)
-      if (!Contacts || !p.foreign)
+      if (!Contacts || !p.foreign) {
         for (int b = 0; b < Dim; ++b) {
           sums.gradients[b] += weighted[b];
           for (int a = 0; a < Dim; ++a) sums.pull[a] += j[R::stress + a * Dim + b] * returned[b];
         }
+        if constexpr (Kind.cracked)
+          if (is_cut)
+            for (int b = 0; b < Dim; ++b) {
+              sums.cut_gradients[b] += cut * weighted[b];
+              const V share = cut * returned[b];
+              for (int a = 0; a < Dim; ++a) sums.pull[a] -= j[R::shear + a * Dim + b] * share;
+            }
+      }
     if constexpr (Kind.gradient) {
       if constexpr (Contacts)
         if (p.foreign) {
@@ -63,16 +74,11 @@ void PairPassOf<T, Dim, Kind, K, Flux>::cluster_rates(const RateColumns<Dim>& co
           sums.contact_gradient.add(dv, others);
         }
       sums.gradient.add(dv, weighted);
-      if constexpr (Kind.cracked) {
-        V image[Dim], across = simd::max(quadratic_form<Dim>(damage, p.dx, image),
-                                         quadratic_form<Dim>(j + R::damage, p.dx, image));
-        if (simd::any_less(V{}, across)) {  // most matter has no cracks
-          across = simd::min(V(across * simd::reciprocal(V(p.r2 + support_detail::guard<T>))), V{} + T(1));
-          for (int b = 0; b < Dim; ++b) weighted[b] *= across;
+      if constexpr (Kind.cracked)
+        if (is_cut) {
+          for (int b = 0; b < Dim; ++b) weighted[b] *= cut;
           sums.cut.add(dv, weighted);
-          sums.cut_moment.add(p.dx, weighted);
         }
-      }
     } else if constexpr (!R::split) {  // else the work is not needed
       sums.divergence += pair_detail::dot(dv, weighted);
     }
@@ -113,12 +119,22 @@ void PairPassOf<T, Dim, Kind, K, Flux>::cluster_rates(const RateColumns<Dim>& co
     const V pressure = along_gradient ? simd::rounded(exchange.pressure) : V{};
     // Where densities are alike shares are 1 to the bit. Seen from j everything must be the same number, whichever way
     // its cluster takes: products are rounded before the sum, as in the kernels.
-    if ((Contacts && p.foreign) || !alike.with(j)) {
+    [[maybe_unused]] V cut;
+    bool is_cut = false;
+    if constexpr (Kind.cracked) is_cut = cracks.cut(p, cut);
+    if ((Contacts && p.foreign) || is_cut || !alike.with(j)) {
       const Shares shares(alike.limit, expansion, compression, j[R::expansion], j[R::compression]);
       V ours[R::stresses], theirs[R::stresses];
       for (int s = 0; s < R::stresses; ++s) {
-        ours[s] = shares.own * stress[s];
-        theirs[s] = shares.other * j[R::stress + s];
+        ours[s] = stress[s];
+        theirs[s] = simd::all<V>(j[R::stress + s]);
+        if constexpr (Kind.cracked)
+          if (is_cut) {
+            ours[s] = simd::fused(V(-cut), shear[s], ours[s]);
+            theirs[s] = simd::fused(V(-cut), simd::all<V>(j[R::shear + s]), theirs[s]);
+          }
+        ours[s] = shares.own * ours[s];
+        theirs[s] = shares.other * theirs[s];
       }
       if constexpr (Contacts)
         if (p.foreign) {
@@ -165,10 +181,13 @@ void PairPassOf<T, Dim, Kind, K, Flux>::cluster_rates(const RateColumns<Dim>& co
       members, support, candidates, R::size, [&](const V& moment) { sums.moment += moment; }, gradients, forces);
   if constexpr (apart)
     for (int a = 0; a < Dim; ++a) {
-      for (int b = 0; b < Dim; ++b) sums.pull[a] += stress[a * Dim + b] * sums.gradients[b];
+      for (int b = 0; b < Dim; ++b) {
+        sums.pull[a] += stress[a * Dim + b] * sums.gradients[b];
+        if constexpr (Kind.cracked) sums.pull[a] -= shear[a * Dim + b] * sums.cut_gradients[b];
+      }
       sums.acceleration[a].add(1, sums.pull[a]);
     }
-  close<Contacts>(columns, c, sums, v, stress, contact);
+  close<Contacts>(columns, c, sums, v, stress, shear, contact);
 }
 
 }  // namespace ejecta

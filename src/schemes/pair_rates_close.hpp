@@ -8,6 +8,7 @@ template <class T, int Dim, PassKind Kind, class K, class Flux>
 template <bool Contacts, class ContactLanes>
 void PairPassOf<T, Dim, Kind, K, Flux>::close(const RateColumns<Dim>& columns, const Cluster& c, const RateSums& sums,
                                               const V (&v)[Dim], const V (&stress)[R::stresses],
+                                              [[maybe_unused]] const V (&shear)[R::stresses],
                                               [[maybe_unused]] const ContactLanes& contact) const {
   const double per_unit = 1 / settings_.length_unit, unit_volume = std::pow(settings_.length_unit, Dim);
   for (std::size_t i = c.begin; i < c.end; ++i) {
@@ -36,10 +37,9 @@ void PairPassOf<T, Dim, Kind, K, Flux>::close(const RateColumns<Dim>& columns, c
       }
       columns.velocity_gradient.set(i, Mat<Dim>(per_unit * L));
       if constexpr (Kind.cracked) {
-        const Mat<Dim> left = around_.sums[i].moment - expanded * sums.cut_moment.of_lane(k);
-        const auto correction = gradient_correction<Dim>(left, around_.sums[i].least);
-        const Mat<Dim> uncut = correction.gradient(expanded * (raw - sums.cut.of_lane(k)));
+        const Mat<Dim> cut = sums.cut.of_lane(k), uncut = around_.uncut(i).gradient(expanded * (raw - cut));
         columns.uncut_gradient.set(i, Mat<Dim>(per_unit * uncut));
+        work -= pair_detail::double_contract<true, Dim>(shear, k, cut);
       }
     } else if constexpr (!R::split) {
       work = static_cast<double>(stress[0][k]) * static_cast<double>(sums.divergence[k]);

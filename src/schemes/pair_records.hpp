@@ -67,10 +67,12 @@ struct PairRecord {
   static constexpr int density = v + Dim;                                    ///< rho
   static constexpr int sound_speed = density + 1;
   static constexpr int reference = sound_speed + 1;  ///< rho0
-  static constexpr int stress = reference + 1;           ///< r^2 T (gradient_correction.hpp), or -r^2 P alone [Pa]
-  static constexpr int deformation = stress + stresses;  ///< F of hourglass.hpp, if bonded
+  static constexpr int stress = reference + 1;       ///< r^2 T (gradient_correction.hpp), or -r^2 P alone [Pa]
+  static constexpr int shear = stress + stresses;    ///< what of it passes no crack, if cracked
+  static constexpr int deformation = shear + (Kind.cracked ? stresses : 0);      ///< F of hourglass.hpp, if bonded
   static constexpr int stiffness = deformation + (Kind.bonded ? Dim * Dim : 0);  ///< half of its k [Pa], if bonded
-  static constexpr int damage = stiffness + (Kind.bonded ? 1 : 0);               ///< damage tensor, if cracked
+  static constexpr int damage =
+      stiffness + (Kind.bonded ? 1 : 0);  ///< damage tensor, twice off its diagonal, if cracked
   static constexpr int flux = damage + (Kind.cracked ? symmetric_size<Dim> : 0);
   using FluxRecord = typename Flux::template Record<Dim, Kind.strained>;
   static constexpr int size = flux + FluxRecord::size;

@@ -61,16 +61,27 @@ inline double contact_of(double occupied, const HalfSpace& filled, double size, 
   return occupied > 0 ? std::clamp((occupied / filled(0.5 * size / h) - 1) / onset, 0.0, 1.0) : 0;
 }
 
-/// The stress that acts on own neighbours, and on other pieces.
+/// The stress that acts on own neighbours, on other pieces, and of the first the part that passes no crack.
 template <int Dim>
-ContactStress<Dim> corrected(const Mat<Dim>& sigma, const Surroundings<Dim>& around, std::size_t i) {
+struct ActingStress {
+  Mat<Dim> own, others, shear;
+};
+/// Of sigma = -P I + S. What is behind a crack strains the particle by its volume alone, so S acts on what is not: by
+/// the adjoint of that gradient, or it would do work again and again without ever giving way.
+template <int Dim>
+ActingStress<Dim> corrected(double pressure, const Mat<Dim>& S, const Surroundings<Dim>& around, std::size_t i) {
   const auto& sums = around.sums[i];
   const GradientCorrection<Dim> own = around.own(sums);
-  if (sums.contact.isZero(0)) return {own.stress(sigma), Mat<Dim>::Zero()};
-  return contact_stress<Dim>(sigma, sums.normal(), own, around.all(sums));
+  const Mat<Dim> sigma = S - pressure * Mat<Dim>::Identity();
+  const ContactStress<Dim> whole = sums.contact.isZero(0)
+                                       ? ContactStress<Dim>{own.stress(sigma), Mat<Dim>::Zero()}
+                                       : contact_stress<Dim>(sigma, sums.normal(), own, around.all(sums));
+  if (around.cut.empty()) return {whole.own, whole.others, Mat<Dim>::Zero()};
+  const Mat<Dim> shear = around.uncut(i).stress(S);
+  return {whole.own + (shear - own.stress(S)), whole.others, shear};
 }
 
-/// sigma of a particle, as its cracks let it through.
+/// P and S of a particle, as its cracks let it through.
 template <int Dim, RecordKind Kind>
 class StressOf {
  public:
@@ -83,22 +94,21 @@ class StressOf {
         intact_share_(particles, Field::intact_share) {}
 
   double pressure(std::size_t i) const { return pressure_[i]; }
-  Mat<Dim> operator()(std::size_t i) const {
+  Mat<Dim> deviator(std::size_t i) const {
     const double scale = intact_share_.count ? intact_share_(0, i) : 1.0;
-    auto deviator = [&](std::size_t k) { return scale * deviator_(k, i); };
+    auto component = [&](std::size_t k) { return scale * deviator_(k, i); };
     Symmetric<Dim> s = Symmetric<Dim>::Zero();
     if (deviator_.count) {
       if constexpr (Dim == 2)
-        s << deviator(0), deviator(1), deviator(2);
+        s << component(0), component(1), component(2);
       else
-        s << deviator(0), deviator(1), -deviator(0) - deviator(1), deviator(2), deviator(3), deviator(4);
+        s << component(0), component(1), -component(0) - component(1), component(2), component(3), component(4);
     }
-    Mat<Dim> sigma = matrix_of<Dim>(s);
+    const Mat<Dim> S = matrix_of<Dim>(s);
     if constexpr (Kind.cracked)
       if (const Symmetric<Dim> cracks = cracks_of(particles_, damage_, rules_, i); !cracks.isZero(0))
-        sigma = transmitted<Dim>(sigma, matrix_of<Dim>(cracks));
-    for (int a = 0; a < Dim; ++a) sigma(a, a) -= pressure_[i];
-    return sigma;
+        return transmitted<Dim>(S, matrix_of<Dim>(cracks));
+    return S;
   }
 
  private:
@@ -170,7 +180,8 @@ class Filler {
     }
     if constexpr (Kind.cracked) {
       const Symmetric<Dim> cracks = cracks_of(particles_, damage_, rules_, i);
-      for (int k = 0; k < symmetric_size<Dim>; ++k) r[R::damage + k] = static_cast<T>(cracks[k]);
+      for (int k = 0; k < symmetric_size<Dim>; ++k)
+        r[R::damage + k] = static_cast<T>(k < Dim ? cracks[k] : 2 * cracks[k]);
     }
     flux_.pack(i, r + R::flux);
   }
@@ -263,17 +274,18 @@ void PairRecord<T, Dim, Kind, Flux>::pack_stress(const Particles<Dim>& particles
   const StressOf own_stress(particles, rules);
   std::vector<StressOf> guests;
   for (const Particles<Dim>* guest : ghosts.guests) guests.emplace_back(*guest, rules);
-  /// of(sigma) gives what acts on own neighbours, and on other pieces.
+  /// of(P, S) gives what acts.
   const auto fill = [&](const StressOf& source, std::size_t i, std::size_t place, const auto& of) {
     T* r = records.data() + place * size;
     const double rho0_over_rho = static_cast<double>(r[expansion]), squared = rho0_over_rho * rho0_over_rho;
     if constexpr (!Kind.stress) {
       r[stress] = static_cast<T>(-squared * source.pressure(i));
     } else {
-      const auto [own, others] = of(source(i));
+      const auto [own, others, through] = of(source.pressure(i), source.deviator(i));
       for (int a = 0; a < Dim; ++a)
         for (int b = 0; b < Dim; ++b) {
           r[stress + a * Dim + b] = static_cast<T>(squared * own(a, b));
+          if constexpr (Kind.cracked) r[shear + a * Dim + b] = static_cast<T>(squared * through(a, b));
           if (!contacts.empty())
             contacts[place * contact_size + static_cast<std::size_t>(press + a * Dim + b)] =
                 static_cast<T>(squared * others(a, b));
@@ -281,25 +293,27 @@ void PairRecord<T, Dim, Kind, Flux>::pack_stress(const Particles<Dim>& particles
     }
   };
   parallel_for(0, n, [&](std::size_t i) {
-    fill(own_stress, i, i, [&](const Mat<Dim>& sigma) { return record_detail::corrected<Dim>(sigma, around, i); });
+    fill(own_stress, i, i, [&](double P, const Mat<Dim>& S) { return record_detail::corrected<Dim>(P, S, around, i); });
   });
   for (std::size_t k = 0; k < ghosts.size(); ++k) {
     const Ghost& ghost = ghosts.ghosts[k];
     T* r = records.data() + (n + k) * size + stress;
     T* t = contacts.empty() ? nullptr : contacts.data() + (n + k) * contact_size + press;
     if (ghost.owner == 0) {
-      // With the deformation, if bonded.
+      // With what passes no crack and the deformation.
       std::copy_n(records.data() + ghost.source * size + stress, damage - stress, r);
       if (t) std::copy_n(contacts.data() + ghost.source * contact_size + press, stresses, t);
     } else {
-      fill(guests[ghost.owner - 1u], ghost.source, n + k, [](const Mat<Dim>& sigma) {
-        return ContactStress<Dim>{sigma, std::min(0.0, sigma.trace() / Dim) * Mat<Dim>::Identity()};
+      fill(guests[ghost.owner - 1u], ghost.source, n + k, [](double P, const Mat<Dim>& S) {
+        const Mat<Dim> sigma = S - P * Mat<Dim>::Identity();
+        return record_detail::ActingStress<Dim>{sigma, std::min(0.0, sigma.trace() / Dim) * Mat<Dim>::Identity(), S};
       });
     }
     if constexpr (Kind.stress)
       for (int a = 0; a < Dim; ++a) {
         if (!ghosts.transform(ghost).mirrors(a)) continue;
         record_detail::mirror_tensor<Dim>(r, a);
+        if constexpr (Kind.cracked) record_detail::mirror_tensor<Dim>(r + shear - stress, a);
         if constexpr (Kind.bonded) record_detail::mirror_tensor<Dim>(r + deformation - stress, a);
         if (t) record_detail::mirror_tensor<Dim>(t, a);
       }

@@ -67,11 +67,12 @@ void PairPassOf<T, Dim, Kind, K, Flux>::sum_moments(const RateColumns<Dim>& colu
   const Alike alike(settings_.alike, expansion, compression);
   constexpr bool along = !Kind.asph && !Kind.bonded;  // the gradient is along the pair
   std::conditional_t<along, pair_detail::SymmetricSum<V, Dim>, TensorSum> moment;
-  [[maybe_unused]] TensorSum contact_moment, start_moment;
+  [[maybe_unused]] TensorSum contact_moment, start_moment, cut;
+  [[maybe_unused]] const pair_detail::Cracks<T, V, R, Dim, Kind.cracked> cracks(members.loader());
   pair_detail::SquareSum<V, Dim, Kind.asph> squares, squares_of_others;
   V stretch2 = V{} + T(1);
   for_partners<Contacts>(
-      members, support, candidates, R::v, [](const V&) {},
+      members, support, candidates, Kind.cracked ? R::size : R::v, [](const V&) {},
       [&](const Partner& p) __attribute__((always_inline)) {
         const T volume = p.record[R::volume];
         V weight = simd::all<V>(volume), weighted[Dim];
@@ -90,6 +91,11 @@ void PairPassOf<T, Dim, Kind, K, Flux>::sum_moments(const RateColumns<Dim>& colu
         p.kernel_gradient(weighted, weight);
         moment.add(p.dx, weighted);
         squares.add(weighted);
+        if constexpr (Kind.cracked)
+          if (V share; cracks.cut(p, share)) {
+            for (int a = 0; a < Dim; ++a) weighted[a] *= share;
+            cut.add(p.dx, weighted);
+          }
         if constexpr (Kind.bonded) {
           start_moment.add(p.kept.between, weighted);
           stretch2 = simd::max(stretch2, members.stretch2(p));
@@ -107,6 +113,7 @@ void PairPassOf<T, Dim, Kind, K, Flux>::sum_moments(const RateColumns<Dim>& colu
       sums.contact = expansion * contact_moment.of_lane(k);
       sums.least_of_all = least_stretch(std::sqrt(own_squares + squared * squares_of_others.of_lane(k, scale)));
     }
+    if constexpr (Kind.cracked) around_.cut[i] = expansion * cut.of_lane(k);
     if constexpr (Kind.bonded) {
       columns.stretch(0, i) = std::sqrt(static_cast<double>(stretch2[k]));
       set_deformation(i, sums.moment, expansion * start_moment.of_lane(k), sums.least);

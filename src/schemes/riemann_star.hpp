@@ -49,8 +49,7 @@ template <class V>
 #ifdef __AVX512F__
 template <>
 [[gnu::always_inline]] inline simd::Doubles root(simd::Doubles a) {
-  const simd::Doubles from = a + 1e-300,
-                      y = (simd::Doubles)_mm512_maskz_rsqrt14_pd(simd::all_doubles, (__m512d)from);
+  const simd::Doubles from = a + 1e-300, y = (simd::Doubles)_mm512_maskz_rsqrt14_pd(simd::all_doubles, (__m512d)from);
   return a * (y * (1.5 - 0.5 * from * y * y));
 }
 #endif

@@ -20,7 +20,8 @@ struct Surroundings {
     Vec<Dim> normal() const { return occupied > 0 ? Vec<Dim>(outward.normalized()) : Vec<Dim>(Vec<Dim>::Zero()); }
   };
   std::vector<Sums> sums;
-  bool corrects = false;  ///< gradients are corrected by M
+  std::vector<Mat<Dim>> cut;  ///< the share of M that cracks cut off; empty where none can
+  bool corrects = false;      ///< gradients are corrected by M
   /// `occupied` of a particle half its own size from another piece, at u = size/(2 h).
   HalfSpace half_space;
 
@@ -30,6 +31,11 @@ struct Surroundings {
   }
   GradientCorrection<Dim> all(const Sums& s) const {
     return corrects ? gradient_correction<Dim>(s.moment + s.contact, s.least_of_all) : GradientCorrection<Dim>{};
+  }
+  /// By the own neighbours on this side of all cracks.
+  GradientCorrection<Dim> uncut(std::size_t i) const {
+    return cut.empty() || cut[i].isZero(0) ? own(sums[i])
+                                           : gradient_correction<Dim>(sums[i].moment - cut[i], sums[i].least);
   }
 };
 

@@ -21,9 +21,9 @@ struct Sums {
   double acceleration_scale = 0, heating_scale = 0, gradient_scale = 0;
 };
 
-/// sigma = -P I + S of particle i; intact_share scales the deviator, cracks cut it.
+/// S of particle i; intact_share scales it, cracks cut it.
 template <int Dim>
-Mat<Dim> stress_of(const Particles<Dim>& p, bool cracked, std::size_t i) {
+Mat<Dim> deviator_of(const Particles<Dim>& p, bool cracked, std::size_t i) {
   Mat<Dim> s = Mat<Dim>::Zero();
   if (p.has(Field::deviatoric_stress)) {
     const auto d = [&](int k) {
@@ -35,8 +35,7 @@ Mat<Dim> stress_of(const Particles<Dim>& p, bool cracked, std::size_t i) {
     else
       s << d(0), d(2), d(3), d(2), d(1), d(4), d(3), d(4), -d(0) - d(1);
   }
-  if (cracked) s = transmitted<Dim>(s, p.symmetric(Field::damage_tensor, i));
-  return s - p.column(Field::pressure)[i] * Mat<Dim>::Identity();
+  return cracked ? transmitted<Dim>(s, p.symmetric(Field::damage_tensor, i)) : s;
 }
 
 /// A kernel by its functions.
@@ -96,7 +95,7 @@ class Reference {
     const View& own = views_[i];
     const double rho = column(Field::density, i), c = column(Field::sound_speed, i),
                  h = column(Field::smoothing_length, i);
-    Mat<Dim> R = Mat<Dim>::Zero(), others = R, uncut = R, uncut_moment = R;
+    Mat<Dim> R = Mat<Dim>::Zero(), others = R, uncut = R;
     for (std::size_t j = 0; j < p_.size(); ++j) {
       const Pair q = pair(i, j);
       const View& other = views_[j];
@@ -130,8 +129,11 @@ class Reference {
 
       // V_i w_ij and V_j w_ji, relative to V_i V_j.
       const double ours_share = weight(i, j) / other.V, theirs_share = weight(j, i) / own.V;
-      const Mat<Dim> ours = q.own ? Mat<Dim>(ours_share * own.own) : Mat<Dim>(share(i, j) * own.press),
-                     theirs = q.own ? Mat<Dim>(theirs_share * other.own) : Mat<Dim>(share(j, i) * other.press);
+      const double cut = q.own ? cut_share(i, j, q.x) : 0;
+      const Mat<Dim> ours =
+                         q.own ? Mat<Dim>(ours_share * (own.own - cut * own.shear)) : Mat<Dim>(share(i, j) * own.press),
+                     theirs = q.own ? Mat<Dim>(theirs_share * (other.own - cut * other.shear))
+                                    : Mat<Dim>(share(j, i) * other.press);
       Vec<Dim> force = (ours + theirs) * q.g - drag - spring;
       double heat = q.v.dot(ours * q.g) - 0.5 * q.v.dot(drag + spring);
       if (!q.own && settings_.friction > 0 && n.norm() > 0) {
@@ -156,21 +158,13 @@ class Reference {
           (ours.norm() + theirs.norm()) / rho * strain + other.V / rho * (drag + spring).norm() * q.v.norm();
       sums.gradient_scale += gradient_weight * q.v.norm() * q.g.norm();
 
-      const Mat<Dim> add = gradient_weight * q.v * q.g.transpose(),
-                     add_moment = gradient_weight * q.x * q.g.transpose();
+      const Mat<Dim> add = gradient_weight * q.v * q.g.transpose();
       if (!q.own) {
         others += share(i, j) * add;
         continue;
       }
       R += add;
-      double left = 1;
-      if (settings_.cracked) {
-        const Vec<Dim> along = q.x.normalized();
-        left -= std::max(along.dot(p_.symmetric(Field::damage_tensor, i) * along),
-                         along.dot(p_.symmetric(Field::damage_tensor, j) * along));
-      }
-      uncut += left * add;
-      uncut_moment += left * add_moment;
+      uncut += (1 - cut) * add;
     }
     const auto corrected = [](const Inverse<Dim>& k, const Mat<Dim>& raw) { return k.P * raw * k.Q.transpose(); };
     sums.gradient = corrected(inverse(own.moment, own.squares), R);
@@ -180,7 +174,7 @@ class Reference {
       const double opening = own.normal.dot((both - sums.gradient) * own.normal);
       if (opening < 0 || !own.press.isZero(0)) sums.gradient += opening * own.normal * own.normal.transpose();
     }
-    sums.uncut_gradient = corrected(Inverse<Dim>::of(uncut_moment, own.squares), uncut);
+    sums.uncut_gradient = corrected(uncut_inverse(own), uncut);
     return sums;
   }
 
@@ -190,7 +184,8 @@ class Reference {
  private:
   /// What partners see of a particle.
   struct View {
-    Mat<Dim> G, H, L, own, press = Mat<Dim>::Zero(), moment = Mat<Dim>::Zero(), others = Mat<Dim>::Zero();
+    Mat<Dim> G, H, L, own, press = Mat<Dim>::Zero(), moment = Mat<Dim>::Zero(), others = Mat<Dim>::Zero(),
+                           cut = Mat<Dim>::Zero(), shear = Mat<Dim>::Zero();
     Vec<Dim> normal = Vec<Dim>::Zero();
     double squares = 0, squares_of_others = 0;
     double V, r, Z, contact = 0;  ///< r: rho0/rho
@@ -269,25 +264,31 @@ class Reference {
       View& view = views_[i];
       for (std::size_t j = 0; j < all; ++j) {
         const Pair q = pair(i, j);
-        if (q.own)
+        if (q.own) {
           view.moment += weight(i, j) * q.x * q.g.transpose();
-        else
+          if (q.r > 0) view.cut += cut_share(i, j, q.x) * weight(i, j) * q.x * q.g.transpose();
+        } else
           view.others += share(i, j) * views_[j].V * q.x * q.g.transpose();
         const Vec<Dim> scaled = (q.own ? weight(i, j) : share(i, j) * views_[j].V) * view.H.inverse() * q.g;
         (q.own ? view.squares : view.squares_of_others) += scaled.squaredNorm();
       }
       if (settings_.bonded) deform(i);
-      const Mat<Dim> sigma = stress_of(p_, settings_.cracked, i);
+      const Mat<Dim> S = deviator_of(p_, settings_.cracked, i),
+                     sigma = S - column(Field::pressure, i) * Mat<Dim>::Identity();
       const Inverse<Dim> own = inverse(view.moment, view.squares),
                          both = inverse(view.moment + view.others, view.squares + view.squares_of_others);
       const Vec<Dim>& n = view.normal;
       const Mat<Dim> passed = std::min(0.0, n.dot(sigma * n)) * n * n.transpose();
       if (!view.others.isZero(0)) view.press = both.P * passed * both.Q;
       view.own = own.P * (view.others.isZero(0) ? sigma : Mat<Dim>(sigma - passed)) * own.Q + view.press;
+      const Inverse<Dim> uncut = uncut_inverse(view);
+      view.shear = uncut.P * S * uncut.Q;
+      view.own += view.shear - own.P * S * own.Q;
     }
     from_sources([](View& view, const View& of, const Vec<Dim>& sign) {
       view.own = sign.asDiagonal() * of.own * sign.asDiagonal();
       view.press = sign.asDiagonal() * of.press * sign.asDiagonal();
+      view.shear = sign.asDiagonal() * of.shear * sign.asDiagonal();
     });
   }
   /// What a bonded particle takes for its deformation since the start.
@@ -315,6 +316,16 @@ class Reference {
   void from_sources(Take&& take) {
     for (std::size_t i = 0; i < copies_.size(); ++i)
       if (source(i) != i) take(views_[i], views_[source(i)], copies_[i].sign);
+  }
+  /// The share of a pair that the cracks of either side cut off.
+  double cut_share(std::size_t i, std::size_t j, const Vec<Dim>& x) const {
+    if (!settings_.cracked) return 0;
+    const Vec<Dim> n = x.normalized();
+    return std::max(n.dot(p_.symmetric(Field::damage_tensor, i) * n), n.dot(p_.symmetric(Field::damage_tensor, j) * n));
+  }
+  Inverse<Dim> uncut_inverse(const View& view) const {
+    return view.cut.isZero(0) ? inverse(view.moment, view.squares)
+                              : Inverse<Dim>::of(view.moment - view.cut, view.squares);
   }
   Inverse<Dim> inverse(const Mat<Dim>& M, double squares) const {
     return settings_.gradient_correction ? Inverse<Dim>::of(M, squares) : Inverse<Dim>{};
