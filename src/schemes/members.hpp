@@ -26,8 +26,8 @@ struct Candidate : Bond<V, Dim, Kind.bonded> {
   V r2;     ///< square of |x_j - x_i|
   V along;  ///< v.x, from the first body on
   Pair pair;
-  const T *record, *contact;  ///< contact: only with contacts
-  bool foreign;               ///< in some lane of another piece; only with contacts
+  const T *record, *contact = nullptr;  ///< contact: only with contacts
+  bool foreign = false;                 ///< in some lane of another piece; only with contacts
 };
 
 /// A candidate as the lanes of a cluster see it.

@@ -23,7 +23,7 @@ void PairPassOf<T, Dim, Kind, K, Flux>::close(const RateColumns<Dim>& columns, c
     if constexpr (Kind.gradient) {
       const Mat<Dim> raw = sums.gradient.of_lane(k);
       work = pair_detail::double_contract<Kind.stress, Dim>(stress, k, raw);
-      Mat<Dim> L = expanded * raw;
+      Mat<Dim> L = expanded * raw, of_contact = Mat<Dim>::Zero();
       if constexpr (Kind.stress) {
         const auto& around = around_.sums[i];
         L = around_.own(around).gradient(expanded * raw);
@@ -31,13 +31,15 @@ void PairPassOf<T, Dim, Kind, K, Flux>::close(const RateColumns<Dim>& columns, c
           if (!around.contact.isZero(0)) {
             const Mat<Dim> others = sums.contact_gradient.of_lane(k);
             const Mat<Dim> all = around_.all(around).gradient(expanded * (raw + others));
-            L = contact_gradient<Dim>(L, all, around.normal(), contact.pressed(k));
+            of_contact = contact_gradient<Dim>(L, all, around.normal(), contact.pressed(k)) - L;
+            L += of_contact;
             work += pair_detail::double_contract<true, Dim>(contact.press, k, others);
           }
       }
       columns.velocity_gradient.set(i, Mat<Dim>(per_unit * L));
       if constexpr (Kind.cracked) {
-        const Mat<Dim> cut = sums.cut.of_lane(k), uncut = around_.uncut(i).gradient(expanded * (raw - cut));
+        const Mat<Dim> cut = sums.cut.of_lane(k),
+                       uncut = around_.uncut(i).gradient(expanded * (raw - cut)) + of_contact;
         columns.uncut_gradient.set(i, Mat<Dim>(per_unit * uncut));
         work -= pair_detail::double_contract<true, Dim>(shear, k, cut);
       }

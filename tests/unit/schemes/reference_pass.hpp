@@ -95,7 +95,7 @@ class Reference {
     const View& own = views_[i];
     const double rho = column(Field::density, i), c = column(Field::sound_speed, i),
                  h = column(Field::smoothing_length, i);
-    Mat<Dim> R = Mat<Dim>::Zero(), others = R, uncut = R;
+    Mat<Dim> R = Mat<Dim>::Zero(), others = R, uncut = R, of_contact = R;
     for (std::size_t j = 0; j < p_.size(); ++j) {
       const Pair q = pair(i, j);
       const View& other = views_[j];
@@ -172,9 +172,10 @@ class Reference {
       const Mat<Dim> both =
           corrected(inverse(own.moment + own.others, own.squares + own.squares_of_others), R + others);
       const double opening = own.normal.dot((both - sums.gradient) * own.normal);
-      if (opening < 0 || !own.press.isZero(0)) sums.gradient += opening * own.normal * own.normal.transpose();
+      if (opening < 0 || !own.press.isZero(0)) of_contact = opening * own.normal * own.normal.transpose();
     }
-    sums.uncut_gradient = corrected(uncut_inverse(own), uncut);
+    sums.gradient += of_contact;
+    sums.uncut_gradient = corrected(uncut_inverse(own), uncut) + of_contact;
     return sums;
   }
 
