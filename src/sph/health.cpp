@@ -23,6 +23,26 @@ std::string origin_of_failure(const Sph<Dim>& sph, std::size_t i) {
   return sph.clock.step == 0 ? "after set-up" : "after correction";
 }
 
+/// Matter stores energy on either side of its state at rest, so none has less than nothing: what has lost more than
+/// this share of the energy per mass has done work that nobody did on it.
+constexpr double worrying_debt = 0.01;
+
+/// Particles below zero by more than that, in words; empty if there are none.
+template <int Dim>
+std::string energy_debt(const Sph<Dim>& sph) {
+  const auto& p = sph.particles;
+  const Totals now = sph.conserved();
+  const double mean = now.energy() / now.mass;
+  if (!(mean > 0)) return {};
+  const auto energy = p.column(Field::specific_energy);
+  const auto in_debt = [&](std::size_t i) { return energy[i] < -worrying_debt * mean ? 1.0 : 0.0; };
+  const double count = parallel_sum<double>(p.size(), in_debt);
+  if (count == 0) return {};
+  const IndexedMin least = parallel_min(p.size(), 0.0, [&](std::size_t i) { return energy[i]; });
+  return fmt::format("{:.0f} particles have a specific energy below zero, down to {:.2g} times the mean energy: {}",
+                     count, least.value / mean, sph.describe(least.index));
+}
+
 }  // namespace
 
 template <int Dim>
@@ -39,6 +59,7 @@ std::vector<Remark> Sph<Dim>::remarks() const {
     list.push_back({fmt::format("the distension solver {} failed to converge in {} particle-steps",
                                 name_of(scene.numerics.distension_solver), unconverged),
                     true});
+  if (const std::string debt = energy_debt(*this); !debt.empty()) list.push_back({debt, true});
   if (const ShapeReport& r = shape_report; r.votes > 0) {
     const double percent = 100 / static_cast<double>(r.votes);
     list.push_back({fmt::format(

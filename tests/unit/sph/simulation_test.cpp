@@ -169,6 +169,19 @@ TEST(Simulation, ANotANumberEndsItNamingTheParticle) {
 }
 
 /// Densities are held near what the neighbours leave a particle, but nothing takes the place of one that is lost.
+TEST(Simulation, RemarksOnEnergiesBelowZero) {
+  const auto sim = start<3>(porous_impact);
+  EXPECT_TRUE(sim->remarks().empty());
+  const double mean = sim->initial.energy() / sim->initial.mass;
+  sim->particles.column(Field::specific_energy)[50] = -0.005 * mean;
+  EXPECT_TRUE(sim->remarks().empty());
+  for (const std::size_t i : {50u, 60u}) sim->particles.column(Field::specific_energy)[i] = -0.02 * mean;
+  ASSERT_EQ(sim->remarks().size(), 1u);
+  EXPECT_TRUE(sim->remarks()[0].worrying);
+  EXPECT_EQ(sim->remarks()[0].text.find("2 particles have a specific energy below zero, down to -0.02 times"), 0u)
+      << sim->remarks()[0].text;
+}
+
 TEST(Simulation, ADensityThatIsNoNumberEndsItToo) {
   for (const double lost : {std::nan(""), static_cast<double>(INFINITY)}) {
     const auto sim = start<3>(porous_impact);
