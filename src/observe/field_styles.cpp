@@ -6,6 +6,8 @@
 #include <limits>
 #include <variant>
 
+#include "observe/plane_impact.hpp"
+
 namespace ejecta {
 
 namespace {
@@ -71,8 +73,22 @@ double yield_stress(const Material& m) {
   return m.strength ? std::visit([](const auto& s) { return s.yield(StrengthState{}); }, *m.strength) : infinity;
 }
 
-/// Adds what solids bear.
-void add_strengths(Extremes& e, const Scene& scene, const std::vector<Material>& materials) {
+/// Stress that motion alone can bring about in solids [Pa]: rho u (c + u) at the largest speed u, as where a wave has
+/// turned all motion into strain. Infinite where something else loads them too.
+double stress_of_motion(const Scene& scene, const std::vector<Material>& materials, const Outset& outset) {
+  const bool pulled = std::ranges::any_of(scene.bodies, &Body::driven) || !scene.detonators.empty();
+  if (pulled || !(outset.speed > 0)) return infinity;
+  double stress = outset.pressure;
+  for (const Material& m : materials)
+    if (m.solid()) {
+      const double density = m.bulk_density();
+      stress = std::max(stress, density * outset.speed * (m.elastic->longitudinal_speed(density) + outset.speed));
+    }
+  return stress;
+}
+
+/// Adds what solids bear, as far as something can bring it about: `most` [Pa].
+void add_strengths(Extremes& e, const Scene& scene, const std::vector<Material>& materials, double most) {
   for (const Material& m : materials) {
     if (!m.solid()) continue;
     double tension = std::min(flaw_tension(m, scene), yield_stress(m));
@@ -81,8 +97,32 @@ void add_strengths(Extremes& e, const Scene& scene, const std::vector<Material>&
     e.tension = is_set(e.tension) ? std::max(e.tension, tension) : tension;
     e.onset = is_set(e.onset) ? std::min(e.onset, onset) : onset;
   }
-  if (is_set(e.tension)) e.pressure = std::max(is_set(e.pressure) ? e.pressure : 0.0, 3 * e.tension);
+  if (!is_set(e.tension)) return;
+  e.pressure = std::max(is_set(e.pressure) ? e.pressure : 0.0, std::min(3 * e.tension, most));
+  e.tension = std::min(e.tension, most);
 }
+
+/// Densities of solids: what is neither crushed nor broken is compressed and stretched by what the pressure over its
+/// bulk modulus says, and nothing by more than a fifth and a half.
+void bound_densities(Extremes& e, const Scene& scene, const std::vector<Material>& materials) {
+  e.least_density = 0.5 * e.density;
+  double least = infinity, largest = 0;
+  for (const Body& body : scene.bodies) {
+    const auto m = std::ranges::find(materials, body.material, &Material::name);
+    if (m == materials.end() || !body.profile.density.empty()) return;
+    const double density = is_set(body.density) ? body.density : m->bulk_density();
+    const double strain = e.pressure / m->elastic->bulk_modulus;
+    const bool loosens = m->damage || m->porosity || m->breaks_in_shear();
+    least = std::min(least, density * (1 - (loosens ? 0.5 : std::min(0.5, strain))));
+    largest = std::max(largest, density * (1 + (m->porosity ? 0.2 : std::min(0.2, strain))));
+  }
+  if (!(largest > 0)) return;
+  e.least_density = least;
+  e.density = largest;
+}
+
+/// Pressures rise above those of a plane impact where shocks meet, and where bodies first touch.
+constexpr double overshoot = 1.25;
 
 /// Colours of pressure follow its logarithm, both ways from zero, from what solids bear on, and from this part of the
 /// range at the latest: shocks and waves of all strengths are seen.
@@ -105,15 +145,20 @@ Extremes extremes(const Scene& scene, const std::vector<Material>& materials, co
   for (const Material& m : materials)
     if (m.porosity) distension = std::max(distension, m.porosity->initial_distension());
   const double speed = outset.speed > 0 ? outset.speed : std::sqrt(outset.pressure / outset.density);
-  Extremes e{outset.pressure, outset.density, speed, distension, std::clamp(scene.numerics.largest_aspect, 1.5, 4.0)};
-  add_strengths(e, scene, materials);
+  const PlaneImpact impact = strongest_impact(scene, materials);
+  Extremes e{.pressure = std::max(outset.pressure, overshoot * impact.pressure),
+             .density = outset.density,
+             .speed = std::max(speed, impact.speed),
+             .distension = distension,
+             .aspect = std::clamp(scene.numerics.largest_aspect, 1.5, 4.0)};
+  add_strengths(e, scene, materials, stress_of_motion(scene, materials, outset));
   for (const Material& m : materials)
     if (const auto explosive = m.explosive()) {
       const double front = m.bulk_density() * std::pow(explosive->detonation_speed, 2) * explosive->cj_compression;
       const double onset = driven_part * front;
       e.onset = is_set(e.onset) ? std::min(e.onset, onset) : onset;
     }
-  if (!materials.empty() && std::ranges::all_of(materials, &Material::solid)) e.least_density = 0.5 * e.density;
+  if (!materials.empty() && std::ranges::all_of(materials, &Material::solid)) bound_densities(e, scene, materials);
   return e;
 }
 

@@ -20,9 +20,10 @@ struct Extremes {
   double onset =
       unset;  ///< pressure or tension at which the weakest matter yields, cracks or begins to be crushed [Pa]
 };
-/// What particles lead one to expect that set out like this, of these materials. What solids bear follows from their
-/// moduli and strengths: the tension that opens the weakest flaw of a particle, else the yield stress, else a hundredth
-/// of the bulk modulus. At least three times that is expected of the pressure.
+/// What particles lead one to expect that set out like this, of these materials, or what a plane impact does if that is
+/// more. What solids bear follows from their moduli and strengths: the tension that opens the weakest flaw of a
+/// particle, else the yield stress, else a hundredth of the bulk modulus. At least three times that is expected of the
+/// pressure, or what motion alone can bring about if that is less and nothing else loads them.
 Extremes extremes(const Scene& scene, const std::vector<Material>& materials, const Outset& outset);
 
 /// Of all fields that have a style of their own or a range given by the scene. Ranges are the scene's, and where it

@@ -68,13 +68,13 @@ TEST(FieldStyles, WithoutFlawsTheYieldStressCountsAndWithoutThatTheModulus) {
 TEST(FieldStyles, WhatAnExplosiveDrivesIsSeen) {
   Material tnt;  // 21 GPa at the front
   tnt.eos = Jwl{.rho0 = 1630,
-                 .A = 371.2e9,
-                 .B = 3.231e9,
-                 .R1 = 4.15,
-                 .R2 = 0.95,
-                 .omega = 0.3,
-                 .E0 = 7e9,
-                 .detonation_speed = 6930};
+                .A = 371.2e9,
+                .B = 3.231e9,
+                .R1 = 4.15,
+                .R2 = 0.95,
+                .omega = 0.3,
+                .E0 = 7e9,
+                .detonation_speed = 6930};
   Outset outset = impact();
   outset.pressure = 21e9;
   EXPECT_NEAR(field_styles(Scene{}, extremes(Scene{}, {tnt}, outset)).at("pressure").linear_to, 21e6, 2e6);
@@ -84,6 +84,58 @@ TEST(FieldStyles, SolidsAreNeverThinnerThanHalf) {
   const Scene scene;
   EXPECT_EQ(field_styles(scene, extremes(scene, {rock()}, impact())).at("density").range->min, 1500);
   EXPECT_EQ(field_styles(scene, extremes(scene, {rock(), Material{}}, impact())).at("density").range->min, 0);  // a gas
+}
+
+/// A block of a metre that is 1000 kg/m^3 dense, yields at half its modulus, and moves.
+struct Bouncing {
+  Material rubber;
+  Scene scene;
+  Outset outset;
+  Bouncing() {
+    rubber.name = "rubber";
+    rubber.eos = LinearEos{.rho0 = 1000, .c0 = 1000};
+    rubber.elastic = Elastic{.shear_modulus = 0.75e9, .bulk_modulus = 1e9};
+    rubber.strength = VonMises{0.5e9};
+    Body body;
+    body.material = "rubber";
+    body.shape = BodyShape::rectangle;
+    body.size = {1, 1, unset};
+    scene.dimension = 2;
+    scene.bodies = {body};
+    outset.speed = 10;
+    outset.density = 1200;
+    outset.pressure = 1e6;
+  }
+  auto styles() const { return field_styles(scene, extremes(scene, {rubber}, outset)); }
+};
+
+TEST(FieldStyles, MotionBringsNoMoreAboutThanItsOwnWaves) {
+  Bouncing block;  // rho u (c + u) = 14.2 MPa, and not three times the yield stress
+  EXPECT_NEAR(block.styles().at("pressure").range->max, 15e6, 1e3);
+  EXPECT_NEAR(block.styles().at("pressure").range->min, -15e6, 1e3);
+  EXPECT_NEAR(block.styles().at("density").range->min, 990, 1);
+  EXPECT_NEAR(block.styles().at("density").range->max, 1100, 1);
+  block.scene.bodies[0].driven = true;  // it may be pulled on for ever
+  EXPECT_NEAR(block.styles().at("pressure").range->max, 1.5e9, 1e3);
+}
+
+TEST(FieldStyles, APlaneImpactIsWithinTheRange) {
+  Bouncing block;
+  block.scene.boundary.lower[0] = BoundaryKind::reflecting;
+  block.scene.bodies[0].velocity = {-10, 0, 0};  // rho (c_L + 3/2 u) u = 14.3 MPa
+  EXPECT_NEAR(block.styles().at("pressure").range->max, 18e6, 1e3);
+}
+
+TEST(FieldStyles, TheLightestSolidIsWithinTheRangeOfDensity) {
+  Bouncing block;
+  Material steel = block.rubber;
+  steel.name = "steel";
+  steel.eos = LinearEos{.rho0 = 8000, .c0 = 1000};
+  block.scene.bodies.push_back(block.scene.bodies[0]);
+  block.scene.bodies[1].material = "steel";
+  const auto styles = field_styles(block.scene, extremes(block.scene, {block.rubber, steel}, block.outset));
+  EXPECT_LT(styles.at("density").range->min, 1000);
+  EXPECT_GT(styles.at("density").range->max, 8000);
 }
 
 TEST(FieldStyles, RangesOfTheSceneComeFirst) {
