@@ -36,8 +36,10 @@ std::string trimmed(const std::string& text) {
 
 /// What the log has said to a line since it was `from` bytes long.
 std::string answer_in(const fs::path& log, std::uintmax_t from) {
+  std::error_code none;
+  const std::uintmax_t size = fs::file_size(log, none);
   std::ifstream in(log);
-  in.seekg(static_cast<std::streamoff>(from));
+  in.seekg(static_cast<std::streamoff>(size < from ? 0 : from));  // shorter: the run has begun another one
   for (std::string text; std::getline(in, text);)
     if (const auto at = text.find(control_mark); at != std::string::npos && !in.eof())
       return text.substr(at + std::string_view(control_mark).size());
@@ -91,15 +93,22 @@ std::string send_control(const fs::path& folder, const std::string& line, double
   if (!out) throw OutputError(part);
   std::error_code none;
   const std::uintmax_t said = fs::file_size(folder / "run.log", none);
+  const bool log_is_there = !none;
   // A link is made only if nobody else's line is waiting there.
   const bool left = wait([&] { return link(part.c_str(), file.c_str()) == 0; });
   fs::remove(part, none);
   if (!left) throw OutputError(file, "an earlier line is still waiting there");
   std::string answer;
+  bool ended = false;
   wait([&] {
-    answer = answer_in(folder / "run.log", none ? 0 : said);
-    return !answer.empty();
+    ended = !run_in(folder);
+    answer = answer_in(folder / "run.log", log_is_there ? said : 0);
+    return ended || !answer.empty();
   });
+  if (ended && answer.empty()) {
+    fs::remove(file, none);
+    throw InputError(folder.string() + ": the run has ended and has not done it");
+  }
   return answer;
 }
 

@@ -16,8 +16,8 @@ struct ControlLine {
 ControlLine parse_control(const std::string& line);
 
 /// Leaves a line for the run. Returns once the run has taken it, with what it said to it, or after `patience` [s], with
-/// nothing. Throws InputError if the line is malformed or no run is going on in the folder, OutputError if it cannot be
-/// left there.
+/// nothing. Throws InputError if the line is malformed, if no run is going on in the folder or the run ends without
+/// taking it, OutputError if it cannot be left there.
 std::string send_control(const std::filesystem::path& folder, const std::string& line, double patience);
 
 /// The run's side: takes the lines that have been left since, malformed ones too.

@@ -119,7 +119,7 @@ int control_command(const std::string& folder, const std::vector<std::string>& w
   for (const std::string& word : words) line += (line.empty() ? "" : " ") + word;
   const std::string answer = send_control(folder, line, patience);
   fmt::print("{}\n",
-             answer.empty() ? "the run has not answered yet: it does at the end of its step, in run.log" : answer);
+             answer.empty() ? "the run has not answered yet; run.log will say what becomes of it" : answer);
   return exit_code::done;
 }
 

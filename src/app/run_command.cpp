@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "app/control.hpp"
 #include "app/job.hpp"
 #include "app/log.hpp"
 #include "app/options.hpp"
@@ -191,6 +192,8 @@ Checkpoint find_checkpoint(const Job& job, std::vector<std::string>& problems) {
 
 int run(const Job& job) {
   RunLock lock(job.folder);
+  take_control(job.folder);  // meant for an earlier run; from now on for this one
+  take_checkpoint_signals();
   std::optional<Checkpoint> checkpoint;
   std::vector<std::string> problems;
   if (job.restart) checkpoint = find_checkpoint(job, problems);
@@ -256,7 +259,9 @@ int run(const Job& job) {
       tables.observe(sim, true);
     }
     keep_folder();
+    steering.refuse_the_rest();
     conclude(sim, frames, job, outputs, status, ending);
+    steering.refuse_the_rest();
   } catch (const InputError& error) {  // another run has the folder now: nothing more may be written there
     spdlog::error("{}", error.what());
     return exit_code::failed;
@@ -284,6 +289,7 @@ int run_command(const RunOptions& options) try {
   } catch (const ScriptError&) {  // nothing is left behind: the run has not begun
     if (!job.restart) {
       clear_run_folder(job.folder);
+      take_control(job.folder);
       std::error_code kept_if_filled;
       fs::remove(job.folder, kept_if_filled);
     }

@@ -41,7 +41,7 @@ const std::array written{
     Written{"",
             {"resolved.toml", "run.log", "insitu.log", "history.csv", "timers.csv", "fragments.csv", "shock.csv",
              "fragment_distribution.csv", "fragments_measured.csv", "fragment_theory.csv", "largest_fragment.csv",
-             "summary.json", "movie_*.mp4", "montage.mp4", "title.png", "control", "control.#", "control.taken"}}};
+             "summary.json", "movie_*.mp4", "montage.mp4", "title.png"}}};
 /// Appended to the name of a table that a restart with other columns has put aside.
 const std::array<std::string, 2> aside{".aside", ".aside#"};
 

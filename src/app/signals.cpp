@@ -20,9 +20,10 @@ void install_signals() {
   std::signal(SIGINT, ask_to_stop);
   std::signal(SIGTERM, ask_to_stop);
   if (std::signal(SIGHUP, ask_to_stop) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup
-  std::signal(SIGUSR1, ask_for_checkpoint);
   std::signal(SIGPIPE, SIG_IGN);
 }
+
+void take_checkpoint_signals() { std::signal(SIGUSR1, ask_for_checkpoint); }
 
 bool stop_requested() { return stop != 0; }
 

@@ -29,9 +29,7 @@ Steering::Steering(std::filesystem::path folder, Frames& frames, Checkpoints& ch
       checkpoints_(checkpoints),
       status_(status),
       observers_(std::move(observers)),
-      tend_(std::move(tend)) {
-  take_control(folder_);  // meant for an earlier run
-}
+      tend_(std::move(tend)) {}
 
 bool Steering::stops(Simulation& sim) {
   look(sim);
@@ -98,6 +96,11 @@ std::string Steering::obey(Simulation& sim, const std::string& line) {
                          format_quantity(sim.clock.time, "s"));
   }
   return "";
+}
+
+void Steering::refuse_the_rest() {
+  for (const std::string& line : take_control(folder_))
+    spdlog::warn("{}{}: ignored: the run has ended", control_mark, line);
 }
 
 /// The state between two steps is shown and kept, and whatever is asked for is done with it.

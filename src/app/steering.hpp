@@ -20,6 +20,8 @@ class Steering {
   /// To be called before every step: does what has been asked for, and waits while the run is paused. Returns whether
   /// the run is to stop.
   bool stops(Simulation& sim);
+  /// Answers what has come too late.
+  void refuse_the_rest();
   /// Who has stopped the run.
   const std::string& stopped_by() const { return stopped_by_; }
 

@@ -131,11 +131,16 @@ constexpr double linear_part = 0.03;
 /// What an explosive drives, such as water around it, is seen down to this part of the pressure at its front.
 constexpr double driven_part = 1e-3;
 
-/// Away from zero to two digits: ends of a colour bar that nobody has given are round.
-double rounded(double value) {
-  if (value == 0 || !std::isfinite(value)) return value;
-  const double unit = std::pow(10, std::floor(std::log10(std::abs(value))) - 1);
-  return std::copysign(std::ceil(std::abs(value) / unit * (1 - 1e-9)) * unit, value);
+/// Ends of a colour bar that nobody has given are round: to two digits of their own or of the range, outwards.
+ColourRange rounded(const ColourRange& range) {
+  const auto digit = [](double value) { return std::pow(10, std::floor(std::log10(std::abs(value))) - 1); };
+  const auto outwards = [&](double value, double away) {
+    if (value == 0 || !std::isfinite(value)) return value;
+    const double unit = std::min(digit(value), digit(range.max - range.min));
+    return away * std::ceil(away * value / unit - 1e-9 * std::abs(value / unit)) * unit;
+  };
+  if (!(range.max > range.min)) return range;
+  return {outwards(range.min, -1), outwards(range.max, 1)};
 }
 
 }  // namespace
@@ -152,6 +157,9 @@ Extremes extremes(const Scene& scene, const std::vector<Material>& materials, co
              .distension = distension,
              .aspect = std::clamp(scene.numerics.largest_aspect, 1.5, 4.0)};
   add_strengths(e, scene, materials, stress_of_motion(scene, materials, outset));
+  // Where a shock has come back from a free surface, what has no flaws is pulled as hard as it was pressed.
+  if (std::ranges::any_of(materials, [](const Material& m) { return m.solid() && !m.damage; }))
+    e.tension = std::max(e.tension, impact.pressure);
   for (const Material& m : materials)
     if (const auto explosive = m.explosive()) {
       const double front = m.bulk_density() * std::pow(explosive->detonation_speed, 2) * explosive->cj_compression;
@@ -167,7 +175,7 @@ std::map<std::string, FieldStyle> field_styles(const Scene& scene, const Extreme
   for (const Row& row : table) {
     FieldStyle& style = styles.try_emplace(row.field, FieldStyle{row.label, row.map, {}}).first->second;
     if (!row.range) continue;
-    const ColourRange given = row.range(expected), range{rounded(given.min), rounded(given.max)};
+    const ColourRange range = rounded(row.range(expected));
     if (range.max > range.min) style.range = range;  // a scene at rest leaves nothing to tell a range from
   }
   for (const auto& [name, range] : scene.insitu.ranges) {

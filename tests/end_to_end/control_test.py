@@ -13,7 +13,7 @@ LONG = {**COARSE, "resolution.spacing": "2mm", "time.end": "10ms"}  # minutes, i
 
 
 class Control(RunTest):
-    def start(self, values, *more):
+    def launch(self, values, *more):
         self.out = self.folder / "run"
         self.process = subprocess.Popen([PROGRAM, "run", IMPACT_2D, "--out", self.out, *settings(values), *more],
                                         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
@@ -21,6 +21,9 @@ class Control(RunTest):
         self.addCleanup(self.process.stdout.close)
         self.addCleanup(self.process.stderr.close)
         self.addCleanup(self.process.kill)
+
+    def start(self, values, *more):
+        self.launch(values, *more)
         self.wait_for(lambda: self.status()["step"] > 0)
 
     def status(self):
@@ -82,6 +85,28 @@ class Control(RunTest):
         result = ejecta("control", self.out, "stop")
         self.assertEqual(result.returncode, 2)
         self.assertIn("a run that goes on, found none", result.stderr)
+
+    def test_what_comes_before_the_first_step_is_kept(self):
+        pictures = {"insitu.enabled": "true", "insitu.frames": 2, "insitu.image_width": 320, "insitu.image_height": 240}
+        self.run_scene(IMPACT_2D, "run", {**COARSE, "time.max_steps": 2})
+        (self.folder / "run/control").write_text("stop\n")  # of a client of that run
+        self.launch({**LONG, **pictures}, "--overwrite")
+        self.wait_for(lambda: (self.out / "run.lock").exists())
+        self.process.send_signal(signal.SIGUSR1)
+        self.ask("pause", answer=r"paused at t = 0 s, step 0")
+        self.wait_for(lambda: (self.out / f"checkpoints/checkpoint_{0:012d}.h5").exists())
+        self.ask("stop", answer="stops at t =")
+        self.process.communicate(timeout=60)
+        self.assertEqual(self.process.returncode, 4)
+
+    def test_what_comes_after_the_last_step_is_refused(self):
+        self.launch({**LONG, "time.max_steps": 30, "insitu.enabled": "true"})  # movies and figures take a while
+        self.wait_for(lambda: (self.out / "run.log").exists() and "step     30" in self.log())
+        result = ejecta("control", self.out, "frame")
+        self.process.communicate(timeout=60)
+        said = result.stdout + result.stderr + self.log()  # the run may still be making movies when the client gives up
+        self.assertRegex(said, "ignored: the run has ended|the run has ended and has not done it|folder of a run that goes on")
+        self.assertFalse((self.out / "control").exists())
 
     def test_another_end(self):
         self.start(LONG)
