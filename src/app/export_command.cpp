@@ -48,14 +48,14 @@ int export_command(const ExportOptions& options) {
   for (const SavedState& state : states) {
     if (&state != &states.front()) saved.go_to(state);
     for_each_channel(saved.simulation(), [&](const Channel& channel) {
+      spdlog::info("{} at t = {}", channel.name, format_quantity(state.time, "s"));
       const fs::path file = write_vtk(out / fmt::format("{}_{:06d}", channel.name, state.step), channel, format);
-      spdlog::info("t = {}: {}", format_quantity(state.time, "s"), file.string());
       series[channel.name].push_back({file, state.time});
     });
   }
   if (series.empty()) throw InputError(run.string() + ": nothing to export: no solver of this run shows its state");
-  if (format == VtkFormat::xml)
-    for (const auto& [channel, files] : series) write_collection(out / (channel + ".pvd"), files);
+  for (const auto& [channel, files] : series)
+    spdlog::info("{} shows {} in time", write_collection(out / channel, files, format).string(), channel);
   return exit_code::done;
 }
 

@@ -18,7 +18,9 @@ struct TimedFile {
   std::filesystem::path file;
   double time = 0;  ///< s
 };
-/// A ParaView collection (.pvd) of files beside it in time. Throws OutputError.
-void write_collection(const std::filesystem::path& file, const std::vector<TimedFile>& files);
+/// What shows files of a format and a folder in time: a ParaView collection <stem>.pvd of them, or <stem>.xmf, which
+/// takes their place. Returns it. Throws OutputError.
+std::filesystem::path write_collection(const std::filesystem::path& stem, const std::vector<TimedFile>& files,
+                                       VtkFormat format);
 
 }  // namespace ejecta

@@ -139,7 +139,7 @@ void Frames::observe(Simulation& sim, bool last) {
   const bool seen = now.step == last_step_ && !last;  // a run that is paused is looked at again and again
   last_step_ = now.step;
   if (seen && frame.reason.empty()) return;
-  if (enabled && !seen && events_.wants_any()) watch(sim, frame);
+  if (enabled && !seen && !ignores_triggers_ && events_.wants_any()) watch(sim, frame);
   const std::vector<PipelineCall> calls = enabled ? calls_at(now, frame, last) : std::vector<PipelineCall>{};
   if (!first && frame.reason.empty() && calls.empty()) return;
   const auto affordable = [&] {

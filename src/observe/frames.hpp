@@ -55,7 +55,7 @@ class Frames : public Observer {
   int left_out() const { return left_out_; }  ///< frames that insitu.max_share did not allow
   /// Calls and failures of the Catalyst scripts; none without Catalyst.
   std::vector<PipelineCount> pipelines() const;
-  /// Every pipeline is run at every call, whatever its triggers say.
+  /// Every pipeline is run at every call, whatever its triggers say, and events are not looked for.
   void ignore_triggers();
 
  protected:

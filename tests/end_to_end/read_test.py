@@ -12,8 +12,9 @@ READ_BACK = """
 import sys
 from paraview.simple import OpenDataFile
 source = OpenDataFile(sys.argv[1])
-source.UpdatePipeline()
+source.UpdatePipeline(source.TimestepValues[-1])
 arrays = source.PointData
+print(*source.TimestepValues)
 print(source.GetDataInformation().GetNumberOfPoints(), arrays["velocity"].GetNumberOfComponents(),
       arrays["deviatoric_stress"].GetNumberOfComponents(), "fragment_number" in arrays.keys())
 """
@@ -21,7 +22,8 @@ print(source.GetDataInformation().GetNumberOfPoints(), arrays["velocity"].GetNum
 
 class Read(RunTest):
     def a_run(self):
-        return self.run_scene(IMPACT_2D, "run", {"resolution.spacing": "4mm", "time.end": "4us", "insitu.enabled": "false"})
+        return self.run_scene(IMPACT_2D, "run", {"resolution.spacing": "4mm", "time.end": "4us", "insitu.enabled": "false",
+                                                 "output.snapshots": 2})
 
     @unittest.skipUnless(HAS_H5PY, "needs h5py (Debian package python3-h5py)")
     def test_reader(self):
@@ -41,10 +43,12 @@ class Read(RunTest):
         out = self.a_run()
         for form, ending in (("vtp", "pvd"), ("xdmf", "xmf")):
             with self.subTest(form):
-                self.assertEqual(ejecta("export", out, "--format", form).returncode, 0)
+                self.assertEqual(ejecta("export", out, "--all", "--format", form).returncode, 0)
                 file, = (out / "export").glob(f"*.{ending}")
                 read = subprocess.run(["/usr/bin/python3", "-c", READ_BACK, file], capture_output=True, text=True)
-                self.assertEqual(read.stdout.split(), ["252", "3", "6", "True"], read.stderr)
+                self.assertEqual(read.stdout.split(), ["2e-06", "4e-06", "252", "3", "6", "True"], read.stderr)
+        self.assertRegex((out / "export/particles.xmf").read_text(),
+                         r'<Attribute Name="pressure"[^>]*>\s*<DataItem[^>]*>[^<]*</DataItem>\s*<Information Name="Units" Value="Pa"/>')
 
 
 if __name__ == "__main__":

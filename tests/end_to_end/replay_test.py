@@ -7,7 +7,7 @@ from scripts import HEAD, SHORT, WRITES
 
 class Replay(RunTest):
     def a_run(self):
-        return self.run_scene(IMPACT_2D, "run", {**SHORT, "insitu.enabled": "false", "output.snapshots": 2})
+        return self.run_scene(IMPACT_2D, "run", {**SHORT, "insitu.enabled": "false", "output.snapshots": 2, "insitu.events": '["first contact"]'})
 
     def test_states_through_new_pipelines(self):
         out = self.a_run()
@@ -21,6 +21,7 @@ class Replay(RunTest):
                 table = Table(to / "images/data.csv")
                 self.assertEqual(len(table.rows), count)
                 self.assertAlmostEqual(table.numbers("time")[0], 10e-6 if not more else 5e-6, delta=1e-11)
+                self.assertEqual(set(table["reason"]), {"frame"})  # no event: nothing happens here
         gui = Path(__file__).parent / "gui_exported.py"
         result = ejecta("replay", out, "--pipeline", gui, "--out", self.folder / "gui", "--at", "4us")
         self.assertEqual(result.returncode, 0, result.stderr)
@@ -44,9 +45,10 @@ class Replay(RunTest):
         collection = (out / "export/particles.pvd").read_text()
         self.assertEqual(collection.count("<DataSet"), 2)
         self.assertEqual(len(list((out / "export").glob("particles_*.vtp"))), 2)
-        result = ejecta("export", out, "--format", "xdmf", "--out", self.folder / "xdmf")
+        result = ejecta("export", out, "--all", "--format", "xdmf", "--out", self.folder / "xdmf")
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertEqual(len(list((self.folder / "xdmf").glob("*.xmf"))), 1)
+        self.assertEqual([file.name for file in (self.folder / "xdmf").glob("*.xmf")], ["particles.xmf"])
+        self.assertEqual((self.folder / "xdmf/particles.xmf").read_text().count("<Time "), 2)
 
 
 if __name__ == "__main__":
