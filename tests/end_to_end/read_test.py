@@ -39,6 +39,30 @@ class Read(RunTest):
         with self.assertRaisesRegex(KeyError, "heat; there are .*density"):
             state["heat"]
 
+    @unittest.skipUnless(HAS_H5PY, "needs h5py (Debian package python3-h5py)")
+    def test_reader_of_grids(self):
+        from ejecta_read import State
+        for scene, along in (("sod_hybrid", 0), ("blast_1kt", 1)):
+            with self.subTest(scene):
+                out = self.run_scene(SOURCE / "inputs" / f"{scene}.toml", scene,
+                                     {"time.max_steps": 4, "insitu.enabled": "false", "output.snapshots": 0,
+                                      "output.times": "[]"})
+                state = State(next((out / "checkpoints").glob("*.h5")))
+                x, density, momentum = state.cell_centres(), state["grid.density"], state["grid.momentum"]
+                self.assertEqual(state.fields()["grid.momentum"], "kg/(m^2 s)")
+                self.assertEqual(x.shape, (len(density), 2))
+                self.assertEqual(momentum.shape, x.shape)
+                if scene == "sod_hybrid":
+                    self.assertTrue((density[x[:, 0] < -0.1] == 1).all())
+                    self.assertTrue((abs(density[x[:, 0] > 0.1] - 0.125) < 1e-12).all())
+                    self.assertAlmostEqual(x[:, 0].max(), 0.4975)
+                else:  # the charge, about the origin, flies apart
+                    inside = (x ** 2).sum(axis=1) ** 0.5 < 0.4
+                    self.assertGreater(density[inside].min(), 2 * density[~inside].min())
+                    self.assertTrue((momentum * x >= -1e-6 * abs(momentum).max()).all())
+        with self.assertRaisesRegex(KeyError, "no grid"):
+            State(next((self.a_run() / "checkpoints").glob("*.h5"))).cell_centres()
+
     def test_paraview_opens_what_is_exported(self):
         out = self.a_run()
         for form, ending in (("vtp", "pvd"), ("xdmf", "xmf")):
