@@ -1,6 +1,7 @@
 #include "observe/particle_frames.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "observe/field_styles.hpp"
 #include "observe/slice.hpp"
@@ -120,9 +121,9 @@ std::vector<Channel> ParticleFrames<Dim>::make_channels(Simulation& sim) {
   return made;
 }
 
-/// Largest change of a body's momentum since the start, over its mass times the largest speed of the start.
+/// Largest change of a body's momentum since the start, over its mass times a speed [m/s].
 template <int Dim>
-double momentum_change(const Sph<Dim>& sph) {
+double momentum_change(const Sph<Dim>& sph, double speed) {
   const Particles<Dim>& p = sph.particles;
   const auto mass = p.column(Field::mass);
   const auto body = p.label(Label::body);
@@ -134,7 +135,7 @@ double momentum_change(const Sph<Dim>& sph) {
     const BodyAtOutset& start = sph.outset.bodies[b];
     if (sph.scene.bodies[b].driven || !(start.mass > 0)) continue;
     const Vec<Dim> before = start.mass * start.velocity.template head<Dim>();
-    most = std::max(most, (momentum[b] - before).norm() / (start.mass * sph.outset.speed));
+    most = std::max(most, (momentum[b] - before).norm() / (start.mass * speed));
   }
   return most;
 }
@@ -142,8 +143,9 @@ double momentum_change(const Sph<Dim>& sph) {
 template <int Dim>
 Signs ParticleFrames<Dim>::signs(const Simulation& sim, bool fragments_too) const {
   Signs signs = Frames::signs(sim, fragments_too);
-  signs.momentum_change = momentum_change(sph_);
-  signs.pressure = std::ranges::max(sph_.particles.column(Field::pressure));
+  const Outset& start = sph_.outset;  // where nothing moves at first, the speed that its pressure will give it
+  signs.momentum_change = momentum_change(sph_, std::max(start.speed, std::sqrt(start.pressure / start.density)));
+  signs.pressure = highest_pressure(sph_);
   signs.noteworthy_pressure = 0.1 * sph_.outset.pressure;
   if (fragments_ && fragments_too) {
     const std::size_t target = target_body(sph_.scene, sph_.outset.bodies);

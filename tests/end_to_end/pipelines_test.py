@@ -80,6 +80,57 @@ class Pipelines(RunTest):
         contact = next(time for _, time, view, reason, _ in self.rows(out) if reason == "first contact")
         self.assertAlmostEqual(contact, 0.5e-3 / 2580, delta=0.4e-6)  # half a millimetre apart at the start
 
+    def events_of_gas(self, sides, left, right, *more_bodies):
+        """Two blocks of gas, 10 by 2.5 cm each, and more: pressures in bar."""
+        body = """[[bodies]]
+name = "{name}"
+material = "gas"
+shape = "rectangle"
+center = ["{x} mm", "0 mm"]
+size = ["{width} mm", "{height} mm"]
+density = "1 kg/m^3"
+pressure = "{bar} bar"
+"""
+        bodies = [("left", -50, 100, 25, left), ("right", 50, 100, 25, right), *more_bodies]
+        text = "".join(body.format(**dict(zip(("name", "x", "width", "height", "bar"), b))) for b in bodies)
+        (self.folder / "gas.toml").write_text(text + """
+[scene]
+name = "gas"
+dimension = 2
+[resolution]
+spacing = "5 mm"
+[time]
+end = "0.2 ms"
+[numerics]
+density = "continuity"
+smoothing_growth = 1
+[materials.gas.eos]
+model = "ideal_gas"
+gamma = 1.4
+density = "1 kg/m^3"
+[boundary]
+x = "SIDES"
+y = "SIDES"
+min = ["-300 mm", "-12.5 mm"]
+max = ["300 mm", "12.5 mm"]
+[insitu]
+frames = 2
+burst = 0
+events = ["first contact", "peak pressure passed"]
+pipelines = ["a.py"]
+""".replace("SIDES", sides))
+        self.writes("a")
+        out = self.run_scene(self.folder / "gas.toml", "gas", {})
+        return [reason for *_, reason, _ in self.rows(out)]
+
+    def test_nothing_happens_in_gas_at_rest(self):
+        self.assertEqual(self.events_of_gas("periodic", 1, 1, ("beyond", 200, 200, 25, 1), ("before", -200, 200, 25, 1)),
+                         ["frame", "frame"])  # rounding is no contact
+
+    def test_a_particle_on_its_own_holds_no_peak(self):
+        reasons = self.events_of_gas("open", 10, 1, ("lone", 250, 5, 5, 50))
+        self.assertEqual(reasons, ["frame", "first contact", "peak pressure passed", "frame"])
+
     def test_a_restart_goes_on_with_the_triggers(self):
         self.writes("a")
         triggers = {"insitu.events": '["first contact", "peak pressure passed"]', "insitu.burst": 0}
