@@ -157,8 +157,8 @@ Extremes extremes(const Scene& scene, const std::vector<Material>& materials, co
              .distension = distension,
              .aspect = std::clamp(scene.numerics.largest_aspect, 1.5, 4.0)};
   add_strengths(e, scene, materials, stress_of_motion(scene, materials, outset));
-  // Where a shock has come back from a free surface, what has no flaws is pulled as hard as it was pressed.
-  if (std::ranges::any_of(materials, [](const Material& m) { return m.solid() && !m.damage; }))
+  // Where a shock has come back from a free surface, matter is pulled as hard as it was pressed, if nothing has flaws.
+  if (is_set(e.tension) && std::ranges::none_of(materials, [](const Material& m) { return m.damage.has_value(); }))
     e.tension = std::max(e.tension, impact.pressure);
   for (const Material& m : materials)
     if (const auto explosive = m.explosive()) {

@@ -40,7 +40,22 @@ View view_of(const Scene& scene, const Grid<Dim>& grid) {
   return view;
 }
 
-/// Of a blast what its shock will have come down to at the end; of anything else what there is at the start.
+/// How far the shock of the charge will be seen [m]: to the end of the run, or to the farthest face that stands still.
+template <int Dim>
+double seen_reach(const Scene& scene, const Grid<Dim>& grid) {
+  const Box<Dim>& box = grid.box();
+  double farthest = 0;
+  for (std::size_t a = 0; a < Dim; ++a) {
+    const double low = box.corner[static_cast<int>(a)], high = low + box.cells[a] * box.spacing;
+    const double centre = scene.charge->center[a];
+    constexpr double no_end = std::numeric_limits<double>::infinity();
+    farthest =
+        std::max({farthest, box.grows_lower[a] ? no_end : centre - low, box.grows_upper[a] ? no_end : high - centre});
+  }
+  return std::min(blast_reach(scene, grid.ambient().density), farthest);
+}
+
+/// Of a blast what its shock will have come down to when it is last seen; of anything else what there is at the start.
 template <int Dim>
 Extremes expected(const Scene& scene, const Grid<Dim>& grid) {
   const GridOutset& start = grid.outset();
@@ -50,7 +65,7 @@ Extremes expected(const Scene& scene, const Grid<Dim>& grid) {
   e.speed = start.speed;
   e.mach = std::max(2.0, 1.5 * start.mach);
   if (!scene.charge || !scene.gas) return e;
-  const double r = blast_reach(scene, grid.ambient().density);
+  const double r = seen_reach(scene, grid);
   const double volume = Dim == 2 ? std::numbers::pi * r * r : 4 * std::numbers::pi / 3 * r * r * r;
   e.pressure = 1.5 * scene.charge->energy_in(Dim) / volume;
   e.density = 6 * grid.ambient().density;

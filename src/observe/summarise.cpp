@@ -3,6 +3,7 @@
 #include "base/parallel.hpp"
 #include "observe/checkpoints.hpp"
 #include "observe/memory.hpp"
+#include "observe/peak_of_matter.hpp"
 #include "observe/solvers.hpp"
 #include "observe/tables.hpp"
 #include "scene/names.hpp"
@@ -39,9 +40,10 @@ std::vector<BodySummary> summarise_bodies(const Sph<Dim>& sph, const Frames& fra
   }
   if (sph.scene.output.peaks)
     for (std::size_t b = 0; b < bodies.size(); ++b) {
-      const PeakPressures peaks = peak_pressures(sph.particles, static_cast<std::int32_t>(b));
-      bodies[b].pressure_peak_max = peaks.max;
-      bodies[b].pressure_peak_median = peaks.median;
+      const double beside = 1.5 * sph.scene.spacing * sph.scene.bodies[b].spacing_factor;
+      const auto body = static_cast<std::int32_t>(b);
+      bodies[b].pressure_peak_max = peak_of_matter(sph.particles, body, beside);
+      bodies[b].pressure_peak_median = peak_pressures(sph.particles, body).median;
     }
   return bodies;
 }

@@ -46,8 +46,8 @@ double width_of_all(const Scene& scene, const Triple& center) {
   return 2 * half;
 }
 
-/// A view grows by so much for bodies that would begin beyond its edge, cut off by it.
-constexpr double farthest = 1.5;
+/// A view grows by so much for bodies that would begin beyond its edge, cut off by it, and leaves so much beside them.
+constexpr double farthest = 1.5, margin = 1.05;
 
 }  // namespace
 
@@ -78,7 +78,7 @@ View choose_view(const Scene& scene) {
   const double room = scene.detonators.empty() ? 1.6 : 3;  // an explosive throws what is around it
   if (!is_set(view.width)) {
     view.width = room * longest;
-    const double all = width_of_all(scene, view.center);
+    const double all = margin * width_of_all(scene, view.center);
     if (all <= farthest * view.width) view.width = std::max(view.width, all);
   }
   if (!is_set(view.height)) view.height = view.width;

@@ -2,6 +2,7 @@
 import unittest
 
 from ejecta_run import SOURCE, RunTest, Snapshot, Table, ejecta, settings, summary
+from scripts import WRITES
 
 BLAST = SOURCE / "inputs" / "blast_1kt.toml"
 VALUES = {"resolution.spacing": "80 cm", "charge.start": "20 us", "time.end": "225 us", "output.times": '["56 us", "100 us"]', "insitu.frames": 3,
@@ -10,6 +11,18 @@ COLUMNS = ("density", "momentum_x", "momentum_y", "energy")
 
 
 class Blast(RunTest):
+    def test_colours_of_a_blast_that_leaves_its_box(self):
+        script = self.folder / "tells.py"
+        script.write_text(WRITES.format(name="tells", what="ejecta.settings()['fields']['pressure']['range'][1]", channel="grid"))
+        values = VALUES | {"insitu.pipelines": f'["{script}"]', "time.max_steps": 2, "output.times": "[]"}
+        ranges = []
+        for name, box in (("grows", {}), ("box", {"boundary.min": '["-8 m", "-8 m"]', "boundary.max": '["8 m", "16 m"]'})):
+            out = self.run_scene(BLAST, name, values | box | {"time.end": "1 ms"})
+            ranges.append(float(next((out / "images").glob("tells_*.txt")).read_text()))
+        # 3/2 E/(pi r^2), rounded up: at 44 m, where the shock comes to, or at 16 m, where it is last seen
+        self.assertAlmostEqual(ranges[0] / 1e9, 1.1, delta=0.05)
+        self.assertAlmostEqual(ranges[1] / 1e9, 7.9, delta=0.05)
+
     def test_files_of_a_blast(self):
         script = self.folder / "peak.py"
         script.write_text("# script-version: 2.0\nfrom paraview import catalyst\nimport ejecta_view as ejecta\n"
