@@ -78,6 +78,38 @@ unset multiplot
                      kinetic + 1, internal + 1, total + 1, error + 1, table.unit(total));
 }
 
+/// Density, velocity and pressure at the end, a panel each, along the line that the run is told by.
+std::optional<std::string> profile(const fs::path& run, const FigureSettings& settings) {
+  if (!fs::exists(run / "profile.csv")) return {};
+  const CsvTable table = read_csv(run / "profile.csv");
+  if (table.rows.size() < 2) return {};
+  const auto name = [&](std::size_t k) { return table.columns[k].substr(0, table.columns[k].find(" [")); };
+  std::string script = plot_preamble("profile", settings.title, "profile at the end") +
+                       fmt::format(R"(stats 'profile.csv' using (abs($1)) nooutput
+l = factor(STATS_max)
+set multiplot layout {},1
+set lmargin 12
+set rmargin 4
+set key off
+)",
+                                   table.columns.size() - 1);
+  for (std::size_t k = 1; k < table.columns.size(); ++k) {
+    const std::string unit = table.unit(k);
+    const bool scaled = !unit.starts_with("k");  // it has a prefix already
+    if (k > 1) script += "unset title\n";
+    script += k + 1 < table.columns.size()
+                  ? "set format x ''\nunset xlabel\n"
+                  : fmt::format("set format x '%g'\nset xlabel sprintf('{} [%sm]', prefix(l))\n", name(0));
+    script += fmt::format(R"(stats 'profile.csv' using (abs(${0})) nooutput
+u = {1} && STATS_max > 0 ? factor(STATS_max) : 1
+set ylabel {1} ? sprintf('{2} [%s{3}]', prefix(u)) : '{2} [{3}]'
+plot 'profile.csv' using ($1 / l):(${0} / u) with lines ls 1
+)",
+                          k + 1, scaled ? 1 : 0, name(k), unit);
+  }
+  return script + "unset multiplot\n";
+}
+
 /// A panel for each column that people look at, all over the same time.
 std::optional<std::string> probe(const fs::path& run, const FigureSettings& settings, const ProbeFigure& probe) {
   const std::string file = fmt::format("probe_{}.csv", probe.name),
@@ -132,7 +164,8 @@ std::vector<Figure> make_figures(const fs::path& run_folder, const FigureSetting
                           {"fragment_distribution", [&] { return fragment_distribution(run_folder, settings); }},
                           {"fragment_histogram", [&] { return fragment_histogram(run_folder, settings); }},
                           {"largest_fragment", [&] { return largest_fragment(run_folder, settings); }},
-                          {"energy", [&] { return energy(run_folder, settings); }}};
+                          {"energy", [&] { return energy(run_folder, settings); }},
+                          {"profile", [&] { return profile(run_folder, settings); }}};
   for (const ProbeFigure& p : settings.probes)
     plots.push_back({"probe_" + p.name, [&] { return probe(run_folder, settings, p); }});
   std::vector<Figure> figures;

@@ -25,6 +25,7 @@
 #include "observe/measured.hpp"
 #include "observe/outputs.hpp"
 #include "observe/probes.hpp"
+#include "observe/profile.hpp"
 #include "observe/shocks.hpp"
 #include "observe/solvers.hpp"
 #include "observe/status.hpp"
@@ -145,6 +146,8 @@ void conclude(const Simulation& sim, const Frames& frames, const Job& job, Outpu
                      context.unit());
     });
   }
+  if (const MonitorProfile profile = profile_of(sim); !profile.place.empty())
+    write("profile.csv", [&](const fs::path& file) { write_profile(file, profile); });
   for (const PipelineCount& pipeline : frames.pipelines())
     if (pipeline.failures > 0)
       spdlog::warn("pipeline {} failed {} of {} frames; insitu.log says why", pipeline.name, pipeline.failures,

@@ -37,11 +37,11 @@ const std::array written{
     Written{"images", {"data.csv", "*_#.png", ".room"}},
     Written{"figures",
             {"compaction.*", "crush_curve.csv", "fragment_distribution.*", "fragment_histogram.*", "largest_fragment.*",
-             "energy.*"}},
+             "energy.*", "profile.*"}},
     Written{"",
             {"resolved.toml", "run.log", "insitu.log", "history.csv", "timers.csv", "fragments.csv", "shock.csv",
-             "fragment_distribution.csv", "fragments_measured.csv", "fragment_theory.csv", "largest_fragment.csv",
-             "summary.json", "movie_*.mp4", "montage.mp4", "title.png"}}};
+             "profile.csv", "fragment_distribution.csv", "fragments_measured.csv", "fragment_theory.csv",
+             "largest_fragment.csv", "summary.json", "movie_*.mp4", "montage.mp4", "title.png"}}};
 /// Appended to the name of a table that a restart with other columns has put aside.
 const std::array<std::string, 2> aside{".aside", ".aside#"};
 

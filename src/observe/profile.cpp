@@ -1,10 +1,13 @@
 #include "observe/profile.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "observe/solvers.hpp"
+#include "output/atomic_file.hpp"
 
 namespace ejecta {
 
@@ -99,6 +102,16 @@ std::vector<std::size_t> row_of_cells(const Grid<Dim>& grid, const Scene& scene)
 
 template std::vector<std::size_t> row_of_cells(const Grid<2>&, const Scene&);
 template std::vector<std::size_t> row_of_cells(const Grid<3>&, const Scene&);
+
+void write_profile(const std::filesystem::path& file, const MonitorProfile& profile) {
+  std::string text = profile.axis + " [m]";
+  for (const MonitorProfile::Field& field : profile.fields) text += fmt::format(",{} [{}]", field.name, field.unit);
+  for (std::size_t k = 0; k < profile.place.size(); ++k) {
+    text += fmt::format("\n{}", profile.place[k]);
+    for (const MonitorProfile::Field& field : profile.fields) text += fmt::format(",{}", field.values[k]);
+  }
+  write_atomically(file, text + '\n');
+}
 
 MonitorProfile profile_of(const Simulation& sim) {
   MonitorProfile profile;

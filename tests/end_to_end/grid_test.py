@@ -61,6 +61,8 @@ class Blast(RunTest):
         self.assertEqual(int(peaks[-1][1]), end["cells"])
         last = Table(sorted((out / "lineouts").glob("*.csv"))[-1]).numbers("density")
         self.assertLessEqual(max(last), max(density))
+        self.assertEqual(Table(out / "profile.csv").numbers("density"), last)
+        self.assertTrue((out / "figures/profile.png").exists())
 
     def test_restart_and_threads_change_no_bit(self):
         values = VALUES | {"insitu.enabled": "false", "output.times": "[]"}

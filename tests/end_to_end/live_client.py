@@ -26,12 +26,14 @@ def updated(link, event):
         updates += 1
         if updates == 1:
             say("points", points, *sorted(source.PointData.keys()))
+        if updates == 10:
+            say("updated ten times")
 
 
 def disconnected(link, event):
     global closed
     closed = True
-    say("closed after updates")
+    say("closed")
 
 
 link = live.ConnectToCatalyst("localhost", int(sys.argv[1]))

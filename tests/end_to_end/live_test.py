@@ -47,7 +47,7 @@ class Live(RunTest):
         shutil.copy(IMPACT_2D, self.folder / "scene.toml")
         self.log = open(self.folder / "log", "w+")
         self.addCleanup(self.log.close)
-        values = {"resolution.spacing": "3mm", "time.end": "10ms", "time.max_steps": steps, "insitu.max_share": 1,
+        values = {"resolution.spacing": "3mm", "time.end": "10ms", "time.max_steps": steps, "insitu.max_share": 1, "insitu.frames": 2,
                   "insitu.pipelines": '["live.py"]'}
         self.run_process = self.start([PROGRAM, "run", self.folder / "scene.toml", "--out", self.folder / "run",
                                        *settings(values)], stdout=subprocess.DEVNULL, stderr=self.log)
@@ -70,6 +70,7 @@ class Live(RunTest):
         points = next(line for line in self.said if line.startswith("client: points"))
         for field in ("pressure", "velocity", "damage"):
             self.assertIn(f" {field}", points)
+        self.wait_for("client: updated ten times")  # its trigger fires, there are no frames
         self.run_process.send_signal(signal.SIGKILL)
         self.wait_for("client: closed")
         self.assertEqual(self.client.wait(timeout=30), 0)

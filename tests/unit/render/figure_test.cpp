@@ -51,6 +51,9 @@ class FigureTest : public testing::Test {
     for (int k = 0; k <= 60; ++k)
       probe << k * 1e-6 << ',' << 200 * (1 - std::exp(-k / 9.0)) << ',' << 1e9 - 1e7 * k << '\n';
     measured << "time [s],velocity [m/s]\n1e-6,100\n2e-6,180\n";
+    std::ofstream profile(run / "profile.csv");
+    profile << "x [m],density [kg/m^3],velocity x [m/s],pressure [Pa]\n";
+    for (int k = 0; k <= 60; ++k) profile << 0.01 * k << ',' << 1 + 0.1 * k << ',' << -3 * k << ",1e5\n";
     std::ofstream largest(run / "largest_fragment.csv"), history(run / "history.csv");
     largest << "time [s],largest fragment mass fraction [1],fragments [1],dust mass fraction [1]\n";
     history << "time [s],limited by,kinetic energy [J],internal energy [J],total energy [J],energy error [1]\n";
@@ -72,7 +75,7 @@ TEST_F(FigureTest, EveryPlotIsDrawnAndNotBlank) {
   settings.resolution_limit = 8e-6;
   settings.probes = {{"A", 1e-6}};
   const std::vector<Figure> figures = make_figures(run, settings);
-  ASSERT_EQ(figures.size(), 6u);
+  ASSERT_EQ(figures.size(), 7u);
   for (const Figure& figure : figures) {
     EXPECT_EQ(figure.problem, "") << figure.file;
     EXPECT_TRUE(fs::exists(fs::path(figure.file).replace_extension(".gp")));
@@ -123,7 +126,7 @@ TEST_F(FigureTest, WithoutGnuplotEachPlotSaysSo) {
   setenv("PATH", "/no_such_folder", 1);
   const std::vector<Figure> figures = make_figures(run, {});
   setenv("PATH", path.c_str(), 1);
-  ASSERT_EQ(figures.size(), 5u);
+  ASSERT_EQ(figures.size(), 6u);
   for (const Figure& figure : figures) EXPECT_EQ(figure.problem, "gnuplot is not installed");
 }
 
