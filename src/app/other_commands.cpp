@@ -118,8 +118,7 @@ int control_command(const std::string& folder, const std::vector<std::string>& w
   std::string line;
   for (const std::string& word : words) line += (line.empty() ? "" : " ") + word;
   const std::string answer = send_control(folder, line, patience);
-  fmt::print("{}\n",
-             answer.empty() ? "the run has not answered yet; run.log will say what becomes of it" : answer);
+  fmt::print("{}\n", answer.empty() ? "the run has not answered yet; run.log will say what becomes of it" : answer);
   return exit_code::done;
 }
 

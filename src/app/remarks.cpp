@@ -1,6 +1,7 @@
 #include "app/remarks.hpp"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +9,7 @@
 
 #include "app/job.hpp"
 #include "base/parallel.hpp"
+#include "observe/measured.hpp"
 #include "observe/solvers.hpp"
 #include "reference/charge_start.hpp"
 #include "scene/names.hpp"
@@ -157,6 +159,17 @@ std::vector<Remark> remarks_on(const Job& job, const Simulation& sim) {
   on_charge(job, sim, list);
   for (const auto& package : sim.packages) std::ranges::move(package->remarks_at_start(), std::back_inserter(list));
   return list;
+}
+
+void say_misfits(const Scene& scene, const std::filesystem::path& folder) {
+  for (const Probe& probe : scene.probes) {
+    const std::filesystem::path computed = folder / fmt::format("probe_{}.csv", probe.name);
+    const std::filesystem::path measured = folder / fmt::format("probe_{}_measured.csv", probe.name);
+    if (!std::filesystem::exists(computed) || !std::filesystem::exists(measured)) continue;
+    for (const Misfit& m : compare_traces(computed, measured, probe.measured_delay))
+      spdlog::info("probe {}: {} is {} (rms; mean {}) off the {} points that were measured", probe.name, m.column.name,
+                   format_quantity(m.rms, m.column.unit), format_quantity(m.mean, m.column.unit), m.points);
+  }
 }
 
 }  // namespace ejecta

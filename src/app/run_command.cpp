@@ -105,18 +105,6 @@ std::string last_words(const Simulation& sim, const Job& job, const Summary& s, 
                             job.folder.string());
 }
 
-/// How far each probe is from what was measured.
-void say_misfits(const Scene& scene, const fs::path& folder) {
-  for (const Probe& probe : scene.probes) {
-    const fs::path computed = folder / fmt::format("probe_{}.csv", probe.name);
-    const fs::path measured = folder / fmt::format("probe_{}_measured.csv", probe.name);
-    if (!fs::exists(computed) || !fs::exists(measured)) continue;
-    for (const Misfit& m : compare_traces(computed, measured, probe.measured_delay))
-      spdlog::info("probe {}: {} is {} (rms; mean {}) off the {} points that were measured", probe.name, m.column.name,
-                   format_quantity(m.rms, m.column.unit), format_quantity(m.mean, m.column.unit), m.points);
-  }
-}
-
 /// Everything that is written once, when the run is over for whatever reason.
 void conclude(const Simulation& sim, const Frames& frames, const Job& job, Outputs& outputs, Status& status,
               Ending& ending) {

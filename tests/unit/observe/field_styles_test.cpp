@@ -126,7 +126,7 @@ TEST(FieldStyles, APlaneImpactIsWithinTheRange) {
   EXPECT_NEAR(block.styles().at("pressure").range->max, 18e6, 1e3);
   block.rubber.strength = VonMises{1e6};
   EXPECT_NEAR(block.styles().at("pressure").range->min, -18e6, 1e3);  // four times the yield stress is no bound
-  Material weak = rock();  // cracks at 2.5 MPa
+  Material weak = rock();                                             // cracks at 2.5 MPa
   weak.damage->weibull_k *= 1e9;
   block.scene.spacing = 1e-3;
   const auto with_flaws = field_styles(block.scene, extremes(block.scene, {block.rubber, weak}, block.outset));

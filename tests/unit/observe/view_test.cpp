@@ -55,7 +55,7 @@ TEST(View, OfABoxIsAsWideAsItsLongestSideInTheDimensionsThereAre) {
 
 TEST(View, GrowsForABodyThatBeginsAtItsEdge) {
   Scene scene = two_balls();
-  scene.bodies[0] = ball(0.01, {1.1, 2, 3}, {5, 0, 0});  // beyond the edge at 1.08
+  scene.bodies[0] = ball(0.01, {1.1, 2, 3}, {5, 0, 0});       // beyond the edge at 1.08
   EXPECT_NEAR(choose_view(scene).width, 1.05 * 0.22, 1e-12);  // with a margin
   EXPECT_EQ(choose_view(scene).center, (Triple{1, 2, 3}));
   scene.bodies[0].center = {1.2, 2, 3};  // far off
