@@ -153,16 +153,20 @@ void strain_rates(Sph<Dim>& sph) {
       }
       if (!material.solid()) return;
       double shear = variable_shear ? p.column(Field::shear_modulus)[i] : material.elastic->shear_modulus;
+      const Deviator<Dim> s = deviator<Dim>(p, i);
+      const Mat<Dim> straining = straining_gradient(p, material, i);
       double distension_rate = 0;
       if (material.porosity) {
         // S = S_s/alpha, and the solid sees the share f of the strain rate, with f = 1 + (rho/alpha) d(alpha)/d(rho):
         // dS/dt = f 2G e'/alpha + (W S - S W) - S (d(alpha)/dt)/alpha   [Jutzi, Benz & Michel 2008, eqs 29-31]
+        // What f leaves out crushes pores, which takes work: shear that gives work back unloads the solid in full, or
+        // the stress would give more than was put in.
         const double f = p.column(Field::stress_factor)[i];
-        shear *= f / p.column(Field::distension)[i];
+        const bool loads = full_tensor<Dim>(s).template topLeftCorner<Dim, Dim>().cwiseProduct(straining).sum() >= 0;
+        shear *= (loads ? f : 1) / p.column(Field::distension)[i];
         distension_rate = std::min(0.0, (f - 1) * compression);  // (1/alpha) d(alpha)/dt
       }
-      const Deviator<Dim> s = deviator<Dim>(p, i);
-      const Deviator<Dim> rate = stress_rate<Dim>(straining_gradient(p, material, i), s, shear) - distension_rate * s;
+      const Deviator<Dim> rate = stress_rate<Dim>(straining, s, shear) - distension_rate * s;
       for (int k = 0; k < deviator_size<Dim>; ++k) p.column(Field::stress_rate, k)[i] = rate[k];
     });
   }
