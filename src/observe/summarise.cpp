@@ -43,7 +43,7 @@ std::vector<BodySummary> summarise_bodies(const Sph<Dim>& sph, const Frames& fra
       const double beside = 1.5 * sph.scene.spacing * sph.scene.bodies[b].spacing_factor;
       const auto body = static_cast<std::int32_t>(b);
       bodies[b].pressure_peak_max = peak_of_matter(sph.particles, body, beside);
-      bodies[b].pressure_peak_median = peak_pressures(sph.particles, body).median;
+      bodies[b].pressure_peak_median = median_peak_pressure(sph.particles, body);
     }
   return bodies;
 }

@@ -53,7 +53,7 @@ ExternalLoad holding_load(const Particles<Dim>& particles, const Scene& scene) {
 }
 
 template <int Dim>
-PeakPressures peak_pressures(const Particles<Dim>& particles, std::int32_t body) {
+double median_peak_pressure(const Particles<Dim>& particles, std::int32_t body) {
   const auto label = particles.label(Label::body);
   const auto mass = particles.column(Field::mass), peak = particles.column(Field::pressure_peak);
   std::vector<std::pair<double, double>> seen;  // peak, mass
@@ -66,15 +66,15 @@ PeakPressures peak_pressures(const Particles<Dim>& particles, std::int32_t body)
   std::ranges::sort(seen, std::greater<>());
   auto median = seen.begin();
   while (median + 1 != seen.end() && (left -= median->second) > 0) ++median;
-  return {seen.front().first, median->first};
+  return median->first;
 }
 
 Kept kept_between(const Boundary& boundary) { return {!boundary.any(mirrors), !boundary.bounded()}; }
 
 template Totals totals<2>(const Particles<2>&);
 template Totals totals<3>(const Particles<3>&);
-template PeakPressures peak_pressures<2>(const Particles<2>&, std::int32_t);
-template PeakPressures peak_pressures<3>(const Particles<3>&, std::int32_t);
+template double median_peak_pressure<2>(const Particles<2>&, std::int32_t);
+template double median_peak_pressure<3>(const Particles<3>&, std::int32_t);
 template ExternalLoad holding_load<2>(const Particles<2>&, const Scene&);
 template ExternalLoad holding_load<3>(const Particles<3>&, const Scene&);
 

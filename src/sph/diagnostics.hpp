@@ -15,13 +15,9 @@ Totals totals(const Particles<Dim>& particles);
 template <int Dim>
 ExternalLoad holding_load(const Particles<Dim>& particles, const Scene& scene);
 
-/// Pressures that the matter of a body has seen at their highest, from Field::pressure_peak [Pa]; half of the mass has
-/// seen at least the median.
-struct PeakPressures {
-  double max, median;
-};
+/// The pressure that half of the mass of a body has seen at least, from Field::pressure_peak [Pa].
 template <int Dim>
-PeakPressures peak_pressures(const Particles<Dim>& particles, std::int32_t body);
+double median_peak_pressure(const Particles<Dim>& particles, std::int32_t body);
 
 /// Which momenta are conserved between such faces.
 Kept kept_between(const Boundary& boundary);
